@@ -5,6 +5,7 @@
 #include "actors/simulation/vehicle.hpp"
 
 #include <optional>
+#include <utility>
 
 namespace sofof::actors {
 

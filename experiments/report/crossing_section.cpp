@@ -16,6 +16,8 @@ namespace sofof::experiments::report {
 namespace {
 
 constexpr auto gap = std::numeric_limits<double>::quiet_NaN();
+/// Lanes are 1 apart.
+constexpr auto higher = 0.15, given_up_higher = 0.5;
 
 /// Of one lane, in order of time.
 using claims_of_lane = std::vector<claim_line>;
@@ -30,29 +32,44 @@ std::map<std::string, claims_of_lane> by_lane(std::vector<claim_line> all) {
   return lanes;
 }
 
-/// A level line for each claim, from when it enters to when it leaves; those
-/// that would overlap, as they were given up, stand a little higher.
-curve bars(std::string name, const claims_of_lane& claims, double level,
-           bool kept) {
+/// Level lines, from when vehicles enter to when they leave.
+struct bars {
   curve shown;
-  shown.name = std::move(name);
-  const auto y = kept ? level : level + 0.25;
-  auto until_s = -std::numeric_limits<double>::infinity();
-  for (const auto& x : claims) {
-    if (x.was_kept != kept || x.enters_s <= until_s || x.leaves_s <= x.enters_s)
-      continue;
-    const auto from_s = std::max(x.enters_s, until_s);
-    for (const auto& [t_s, at] : {std::pair{from_s, y},
-                                  std::pair{x.leaves_s, y},
-                                  std::pair{x.leaves_s, gap}}) {
+  double until_s = -std::numeric_limits<double>::infinity();
+
+  void add(const claim_line& x, double level) {
+    for (const auto& [t_s, y] :
+         {std::pair{x.enters_s, level}, std::pair{x.leaves_s, level},
+          std::pair{x.leaves_s, gap}}) {
       shown.x.push_back(t_s);
-      shown.y.push_back(at);
+      shown.y.push_back(y);
       shown.stations.push_back(static_cast<double>(x.station));
     }
     until_s = x.leaves_s;
   }
-  shown.dashed = !kept;
-  return shown;
+};
+
+/// One lane's; who follows while the one ahead is still there, a little higher.
+void add_lane(figure& to, const std::string& lane, const claims_of_lane& claims,
+              double level, bool kept) {
+  std::vector<bars> rows;
+  for (const auto& x : claims) {
+    if (x.was_kept != kept || x.leaves_s <= x.enters_s)
+      continue;
+    auto row = std::ranges::find_if(
+        rows, [&](const bars& r) { return r.until_s < x.enters_s; });
+    if (row == rows.end()) {
+      row = rows.insert(row, bars{});
+      row->shown.name = rows.size() == 1 ? lane : lane + ", behind it";
+      if (!kept)
+        row->shown.name += ", given up";
+      row->shown.dashed = !kept;
+    }
+    row->add(x, level + higher * static_cast<double>(row - rows.begin())
+                    + (kept ? 0 : given_up_higher));
+  }
+  for (auto& row : rows)
+    to.curves.push_back(std::move(row.shown));
 }
 
 figure windows_of(const std::map<std::string, claims_of_lane>& lanes,
@@ -69,11 +86,8 @@ figure windows_of(const std::map<std::string, claims_of_lane>& lanes,
   for (const auto& [lane, claims] : lanes) {
     ++level;
     all.levels.emplace_back(level, lane);
-    for (const auto kept : {true, false})
-      if (auto one = bars(kept ? lane : lane + ", given up", claims, level,
-                          kept);
-          !one.x.empty())
-        all.curves.push_back(std::move(one));
+    add_lane(all, lane, claims, level, true);
+    add_lane(all, lane, claims, level, false);
   }
   return all;
 }
