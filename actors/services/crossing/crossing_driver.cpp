@@ -83,7 +83,7 @@ struct crossing_driver_state {
   void tell(time_point t) {
     const auto says = member->tell(t);
     // What it claims; else what it is going to do, which others go by.
-    const auto plan = rest(says.drive ? *member->drive() : *own->plan, t);
+    const auto plan = told_rest(says.drive ? *member->drive() : *own->plan, t);
     const auto ahead = way().waypoints(own->s_m, protocol::authority_m,
                                       protocol::authority_spacing_m);
     messages::mcm_uplink up{own->own, ahead, plan.empty() ? nullptr : &plan, {}};
@@ -94,17 +94,6 @@ struct crossing_driver_state {
         messages::encoded(messages::make_word(up, world->car, *world->where));
     if (!message.octets.empty())
       self->send(vehicle, std::move(message));
-  }
-
-  /// @returns what is left of a drive, but at most 20 s.
-  static world::trajectory rest(const world::trajectory& drive, time_point t) {
-    constexpr std::size_t most = 200;
-    auto left = world::rest_of(drive, t);
-    if (left.points.size() > most)
-      left.points.resize(most);
-    if (left.points.size() < 2)
-      left.points.clear();
-    return left;
   }
 
   void on_word(point from, const messages::its_pdu& message) {

@@ -29,6 +29,16 @@ planners::claimed_drive drive_of(const messages::decoded_mcm& word,
   return drive;
 }
 
+world::trajectory told_rest(const world::trajectory& drive, time_point now) {
+  constexpr std::size_t most = 200;
+  auto left = world::rest_of(drive, now);
+  if (left.points.size() > most)
+    left.points.resize(most);
+  if (left.points.size() < 2)
+    left.points.clear();
+  return left;
+}
+
 bool is_claim(const messages::decoded_mcm& word) {
   return word.plan && word.answer
          && word.answer->second == messages::etsi::maneuver_response::accept;

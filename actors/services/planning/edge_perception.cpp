@@ -79,28 +79,20 @@ void edge_perception::on_word(const messages::decoded_mcm& word, sender_id) {
   if (!where_ || protocol::is_of_future(word.at, clock_()))
     return;
   const std::lock_guard lock{mutex_};
-  if (words_.size() >= most_stations && !words_.contains(word.from))
+  if (said_.size() >= most_stations && !said_.contains(word.from))
     return;
-  auto& known = words_[word.from];
-  if (!known.word || known.word->at < word.at)
-    known = {std::make_shared<const messages::decoded_mcm>(word),
-             drive_of(word, where_->frame, {})};
+  auto& known = said_[word.from];
+  if (known.at < word.at)
+    known = {word.at, drive_of(word, where_->frame, {}), is_claim(word)};
 }
 
 void edge_perception::drives(std::vector<planners::told_drive>& out,
                              station_id station) {
   out.clear();
   const std::lock_guard lock{mutex_};
-  for (const auto& [who, x] : words_)
+  for (const auto& [who, x] : said_)
     if (who != station)
-      out.push_back({who, x.drive, is_claim(*x.word)});
-}
-
-std::shared_ptr<const messages::decoded_mcm>
-edge_perception::word_of(station_id who) const {
-  const std::lock_guard lock{mutex_};
-  const auto x = words_.find(who);
-  return x == words_.end() ? nullptr : x->second.word;
+      out.push_back({who, x.drive, x.is_claimed});
 }
 
 void edge_perception::on_detections(const messages::roadside_detections& view) {
@@ -163,8 +155,8 @@ void edge_perception::forget_silent(time_point now) {
   std::erase_if(told_, [now](const auto& x) {
     return now - x.second.newest.at > protocol::cam_timeout;
   });
-  std::erase_if(words_, [now](const auto& x) {
-    return now - x.second.word->at > protocol::cam_timeout;
+  std::erase_if(said_, [now](const auto& x) {
+    return now - x.second.at > protocol::cam_timeout;
   });
 }
 

@@ -10,7 +10,6 @@
 
 #include <functional>
 #include <map>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -53,9 +52,6 @@ public:
   /// Copies what others than `station` say of their drives.
   void drives(std::vector<planners::told_drive>& out, station_id station);
 
-  /// @returns what a vehicle said last of its own; null: nothing.
-  std::shared_ptr<const messages::decoded_mcm> word_of(station_id who) const;
-
   /// Copies what is known now and believed by who plans for `station`.
   void tracks(std::vector<planners::track>& out, station_id station);
 
@@ -74,10 +70,11 @@ private:
   };
   std::map<station_id, voice> told_; // by CAMs
   struct said {
-    std::shared_ptr<const messages::decoded_mcm> word;
+    time_point at;
     planners::claimed_drive drive;
+    bool is_claimed = false;
   };
-  std::map<station_id, said> words_;
+  std::map<station_id, said> said_; // of their drives, by MCMs
   messages::georeference_ptr where_;
   time_point tidied_;
 };

@@ -3,6 +3,7 @@
 
 #include "actors/services/planning/mec_planning.hpp"
 #include "actors/services/planning/onboard_planning.hpp"
+#include "actors/services/planning/drive_words.hpp"
 #include "actors/services/planning/plan_request.hpp"
 #include "actors/services/planning/session_maneuver.hpp"
 #include "actors/services/planning/suggestion_judge.hpp"
@@ -52,7 +53,8 @@ public:
   }
 
   /// An MCM: where the vehicle may go, and the plan in use for who takes over,
-  /// or that it follows what was suggested.
+  /// or that it follows what was suggested; "pending" means, within the drive
+  /// that was agreed at a crossing, which it has then.
   messages::service_input encode_input(messages::service_input input,
                                        bool takes_over) const override {
     const auto request = input.what.as<plan_request>();
@@ -65,9 +67,16 @@ public:
     const auto plan =
         takes_over ? input.in_use.as<world::trajectory>() : nullptr;
     word.plan = plan.get();
+    const auto agreed = takes_over || !request->crossing
+                            ? world::trajectory{}
+                            : told_rest(request->crossing->drive, request->own.at);
+    if (!agreed.empty())
+      word.plan = &agreed;
     if (!takes_over)
       word.answer.emplace(name_of_maneuver(input.session),
-                          messages::etsi::maneuver_response::accept);
+                          agreed.empty()
+                              ? messages::etsi::maneuver_response::accept
+                              : messages::etsi::maneuver_response::pending);
     auto message = messages::encoded(
         messages::make_word(word, world_->car, *world_->where));
     if (message.octets.empty())
