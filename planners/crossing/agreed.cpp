@@ -2,17 +2,58 @@
 #include "planners/crossing/agreed.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <utility>
 
 namespace sofof::planners {
 namespace {
 
-/// Slower than this a drive waits: so little way in so many points.
+/// A drive waits where it is slower than this over so many points.
 constexpr std::size_t while_points = 4;
 constexpr double waits_below_mps = 0.15;
-/// It counts from so far before the line on.
+/// Places so near to each other are one.
+constexpr double same_place_m = 0.3, next_place_m = 0.05;
+/// A place is ahead, or the car is on it; who is slower than this stands there.
+constexpr double here_m = 0.7, behind_m = 0.5, stands_mps = 0.3;
+/// Who sets off so soon does not wait.
+constexpr double goes_soon_s = 0.05;
+/// When it comes to a place counts from so far before the line on.
 constexpr double counts_before_line_m = 2;
-constexpr double here_m = 0.7, stands_mps = 0.3, goes_soon_s = 0.05;
+
+/// How who drives as it was told stops at its line: it decides, then brakes.
+constexpr double stops_mps2 = 2.5, decides_s = 0.5, spare_m = 1;
+/// It stops there with its front beyond the line by so much at most.
+constexpr double beyond_line_m = 0.3;
+
+/// Where a drive waits, and until when, in seconds from now on.
+struct waiting {
+  double at_m, until_s;
+};
+
+/// @returns the first place ahead at which a drive waits.
+std::optional<waiting> next_wait(const world::trajectory& drive,
+                                 double since_s, const agreeing_car& car) {
+  const auto& all = drive.points;
+  std::optional<waiting> found;
+  for (std::size_t k = 0; k + while_points < all.size(); ++k) {
+    const auto &first = all[k], &last = all[k + while_points];
+    const auto rolls = last.s_m - first.s_m
+                       > waits_below_mps * (last.t_s - first.t_s);
+    if (first.s_m < car.s_m - here_m || rolls)
+      continue;
+    if (found && first.s_m > found->at_m + same_place_m)
+      break;
+    found = {first.s_m, since_s + last.t_s};
+  }
+  const auto sets_off_later = since_s > 0 && car.speed_mps < stands_mps
+                              && all.front().s_m > car.s_m - behind_m;
+  if (sets_off_later)
+    found = {car.s_m, since_s};
+  if (found && found->until_s <= goes_soon_s)
+    found.reset();
+  return found;
+}
 
 } // namespace
 
@@ -21,41 +62,28 @@ std::optional<agreed_drive> agreed(const crossing_view& with, time_point now,
   if (with.drive.empty())
     return std::nullopt;
   agreed_drive a;
-  const auto& all = with.drive.points;
   const auto since_s = to_seconds(with.drive.start - now);
-  auto goes_s = -1.0;
-  for (std::size_t k = 0; k + while_points < all.size(); ++k) {
-    const auto& last = all[k + while_points];
-    if (all[k].s_m < car.s_m - here_m || last.s_m - all[k].s_m > waits_below_mps * (last.t_s - all[k].t_s))
-      continue;
-    if (a.waits_at_m && all[k].s_m > *a.waits_at_m + 0.3)
-      break;
-    a.waits_at_m = all[k].s_m;
-    goes_s = since_s + last.t_s;
-  }
-  if (since_s > 0 && car.speed_mps < stands_mps && all[0].s_m > car.s_m - 0.5) {
-    a.waits_at_m = car.s_m;
-    goes_s = since_s;
-  }
-  if (a.waits_at_m && goes_s > goes_soon_s)
+  if (const auto wait = next_wait(with.drive, since_s, car)) {
+    a.waits_at_m = wait->at_m;
     return a;
-  a.waits_at_m.reset();
-  for (const auto& p : all)
-    if (p.s_m > with.line_m - car.front_m - counts_before_line_m && (a.axle.empty() || p.s_m > a.axle.back().s_m + 0.05))
+  }
+  const auto counts_m = with.line_m - car.front_m - counts_before_line_m;
+  for (const auto& p : with.drive.points)
+    if (p.s_m > counts_m
+        && (a.axle.empty() || p.s_m > a.axle.back().s_m + next_place_m))
       a.axle.push_back({p.s_m, since_s + p.t_s});
   return a;
 }
 
 std::optional<double> waiting_line_m(const crossing_view& with,
                                      const agreeing_car& car) {
-  constexpr double stops_mps2 = 2.5, decides_s = 0.5, spare_m = 1,
-                   beyond_m = 0.3;
+  assert(car.speed_mps >= 0);
   const auto left_m = with.line_m - car.s_m - car.front_m;
   const auto v = car.speed_mps;
-  if (with.binds || with.drive.empty() || left_m <= 0
-      || left_m > v * (decides_s + v / (2 * stops_mps2)) + spare_m)
+  const auto stopping_m = v * (decides_s + v / (2 * stops_mps2)) + spare_m;
+  if (with.binds || with.drive.empty() || left_m <= 0 || left_m > stopping_m)
     return std::nullopt;
-  return with.line_m + beyond_m;
+  return with.line_m + beyond_line_m;
 }
 
 } // namespace sofof::planners
