@@ -523,3 +523,75 @@ name = "trajectory_planning"
 cycles = false
 tracks_period = "200ms"
 """
+
+
+# --- Hostile worlds -------------------------------------------------------------
+
+def tailgating(rng, streets):
+    """Fleets that start close behind each other and fast, and whether each car
+    could stop if the one ahead does."""
+    tables, starts, station, fair_start = [], [], 101, True
+    for route, (_, closed) in (
+            streets.routes.items() if not streets.clear_m else
+            rng.sample(sorted(streets.routes.items()),
+                       rng.randint(2, min(6, len(streets.routes))))):
+        connected = rng.random() < 0.8
+        speed_mps = min(rng.choice([0.0, 5.0, 8.0, 10.0, 13.0]),
+                        streets.limit_mps)
+        if streets.clear_m:
+            start_m, spacing_m = rng.uniform(8, 45), 0.0
+            ahead_m = streets.length_m(route) / 2 - streets.clear_m - start_m
+            fair_start &= ahead_m > room_to_brake_m(speed_mps) - 12
+            tables.append(fleet(station, rng.randint(1, 3), route, start_m, 0,
+                                speed_mps, rng.uniform(0, 3),
+                                rng.uniform(1.5, 5), connected))
+            ways = [start_m]
+        else:
+            spacing_m = rng.uniform(8.2, 16)
+            gap_m = spacing_m - CAR_FRONT_M - CAR_REAR_M
+            fair_start &= gap_m > 2 + 0.6 * speed_mps
+            longest_m = streets.length_m(route) / (2 if closed else 3)
+            count = max(1, min(rng.randint(1, 8), int(longest_m / spacing_m)))
+            start_m = count * spacing_m + 10
+            tables.append(fleet(station, count, route, start_m, spacing_m,
+                                speed_mps, connected=connected))
+            ways = [start_m - i * spacing_m for i in range(count)]
+        starts += [(streets.place(route, way)[0], speed_mps) for way in ways]
+        station += 100
+    return tables, starts, fair_start
+
+
+def hostile(number, duration_s=60):
+    """As `fair`, but sensors see little and badly, who starts is fast and close
+    behind others, and the air loses much: map, scenario, and whether the start
+    leaves everybody room to stop and sensors reach 20 m at least."""
+    rng = random.Random(f"hostile {number}")
+    equal, perceived = rng.random() < 0.3, rng.random() < 0.5
+    streets = any_streets(rng, equal)
+    range_m = rng.choice([100, 50, 30, 20, 12, 9])
+    fleets, starts, fair_start = tailgating(rng, streets)
+    noise = f"""[sensors]
+range_m = {float(range_m)}
+position_noise_m = {rng.choice([0.1, 0.3, 0.5, 1.0])}
+speed_noise_mps = {rng.choice([0.1, 0.5, 1.0])}
+heading_noise_rad = {rng.choice([0.01, 0.05, 0.1])}
+field_of_view_deg = {rng.choice([360.0, 360.0, 180.0, 120.0])}
+"""
+    obstacles = bodies(rng, streets, starts, 100)
+    server = network(rng, duration_s) if rng.random() < 0.7 else ""
+    head = f"""name = "hostile {number}"
+duration = "{duration_s}s"
+seed = {rng.randint(1, 999)}
+map = "map.toml"
+[traffic]
+crossings = "{'perceived' if perceived else 'granted'}"
+"""
+    tail = """[[service]]
+name = "trajectory_planning"
+[record]
+cycles = false
+tracks_period = "200ms"
+"""
+    return streets, "".join([head, *fleets, noise, *obstacles, server, tail]), \
+        fair_start and range_m >= 20
+
