@@ -181,7 +181,7 @@ vehicle(vehicle_impl::stateful_pointer<vehicle_actor_state> self,
       },
       [self](const messages::payload& agreed) { self->state.agreed = agreed; },
       [self](const messages::its_pdu& word) {
-        const auto& x = self->state;
+        auto& x = self->state;
         x.links->say(word, x.car->position(), x.requester);
       },
       [self](world::perception& others) { self->state.on_perception(others); },
