@@ -68,7 +68,7 @@ driven_car::due driven_car::move() {
   lateral_m_ = place.d_m;
   ++steps_;
   count_safety();
-  figures_->on_step(car_, is_at_the_end());
+  figures_->on_step(car_, is_near_the_end());
   return {.sensing = ends(protocol::sensor_period, steps_),
           .telling = ends(protocol::ego_period, steps_),
           .track = is_tracked(steps_),
@@ -85,8 +85,8 @@ time_point driven_car::next_report() const {
   return at_ + (next - steps_) * protocol::control_period;
 }
 
-bool driven_car::is_at_the_end() const {
-  return !setup_.way->closed() && car_.speed_mps <= 0
+bool driven_car::is_near_the_end() const {
+  return !setup_.way->closed()
          && s_m_ + setup_.car.front_m + at_the_end_m >= setup_.way->length_m();
 }
 

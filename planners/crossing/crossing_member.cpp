@@ -133,7 +133,8 @@ void crossing_member::move(time_point now, const place& own) {
 
 void crossing_member::claim(time_point now, const world::trajectory& drive) {
   const auto at = enters(drive);
-  if (!at || !is_kept(now, drive)
+  const auto has_left = own_.s_m - car_.rear_m > own_.clear_m;
+  if (!at || has_left || !is_kept(now, drive)
       || (*at - now > rules_.claims_before && can_stop()))
     return;
   const auto claim = claim_of(drive);
