@@ -49,10 +49,9 @@ void drive_figures::stop_safely() {
   ++plans_.safe_stops;
 }
 
-void drive_figures::on_step(const world::vehicle_state& x, bool near_end) {
+void drive_figures::on_step(const world::vehicle_state& x) {
   ride_.add(x, emergency_);
-  if (!near_end)
-    stood_.add(x.speed_mps, to_seconds(protocol::control_period));
+  stood_.add(x.speed_mps, to_seconds(protocol::control_period));
 }
 
 messages::drive_record drive_figures::flush() {

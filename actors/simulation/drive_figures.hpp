@@ -35,9 +35,8 @@ public:
   /// the vehicle stops already, or has not set off.
   void stop_safely();
 
-  /// @param x         The car after a step of protocol::control_period.
-  /// @param near_end  Of its route: to come to rest there is no stop.
-  void on_step(const world::vehicle_state& x, bool near_end = false);
+  /// @param x  The car after a step of protocol::control_period.
+  void on_step(const world::vehicle_state& x);
 
   /// @returns the figures since the last call.
   messages::drive_record flush();

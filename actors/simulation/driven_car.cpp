@@ -28,8 +28,9 @@ constexpr double followed_m = 1.0;
 constexpr double followed_mps = 1.5;
 /// A car is sought on its route only so far from where it should be.
 constexpr double window_m = 2;
-/// A car that stands so near the end of its route has arrived.
-constexpr double at_the_end_m = 1.0;
+/// A car that is so near the end of its route has arrived. It leaves before it
+/// stops there, or those behind it would queue up.
+constexpr double at_the_end_m = 10.0;
 /// Safety and comfort are summed up so often.
 constexpr duration figures_period = 1s;
 
@@ -68,7 +69,7 @@ driven_car::due driven_car::move() {
   lateral_m_ = place.d_m;
   ++steps_;
   count_safety();
-  figures_->on_step(car_, is_near_the_end());
+  figures_->on_step(car_);
   return {.sensing = ends(protocol::sensor_period, steps_),
           .telling = ends(protocol::ego_period, steps_),
           .track = is_tracked(steps_),
@@ -85,7 +86,7 @@ time_point driven_car::next_report() const {
   return at_ + (next - steps_) * protocol::control_period;
 }
 
-bool driven_car::is_near_the_end() const {
+bool driven_car::is_at_the_end() const {
   return !setup_.way->closed()
          && s_m_ + setup_.car.front_m + at_the_end_m >= setup_.way->length_m();
 }

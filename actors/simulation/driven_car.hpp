@@ -67,9 +67,7 @@ public:
   /// @returns when the next step is due that others see or record.
   time_point next_report() const;
   /// At the end of an open route.
-  bool is_at_the_end() const {
-    return is_near_the_end() && car_.speed_mps <= 0;
-  }
+  bool is_at_the_end() const;
 
   /// Goes by another plan, if it is sound, newer, and of now.
   /// @returns the jump, if the plan so far is from another source.
@@ -107,7 +105,6 @@ private:
   planners::planning_input measured() const;
   bool ends(duration period, std::uint64_t step) const;
   bool is_tracked(std::uint64_t step) const;
-  bool is_near_the_end() const;
   void stop_safely(time_point from);
   void count_safety();
 

@@ -18,7 +18,7 @@ constexpr double same_place_m = 0.3, next_place_m = 0.05;
 constexpr double here_m = 0.7, behind_m = 0.5, stands_mps = 0.3;
 /// Who sets off so soon does not wait.
 constexpr double goes_soon_s = 0.05;
-/// When it comes to a place counts from so far before the line on.
+/// When it comes to a place binds from so far before the line on.
 constexpr double counts_before_line_m = 2;
 
 /// How who drives as it was told stops at its line: it decides, then brakes.
@@ -67,10 +67,9 @@ std::optional<agreed_drive> agreed(const crossing_view& with, time_point now,
     a.waits_at_m = wait->at_m;
     return a;
   }
-  const auto counts_m = with.line_m - car.front_m - counts_before_line_m;
+  a.binds_from_m = with.line_m - car.front_m - counts_before_line_m;
   for (const auto& p : with.drive.points)
-    if (p.s_m > counts_m
-        && (a.axle.empty() || p.s_m > a.axle.back().s_m + next_place_m))
+    if (a.axle.empty() || p.s_m > a.axle.back().s_m + next_place_m)
       a.axle.push_back({p.s_m, since_s + p.t_s});
   return a;
 }

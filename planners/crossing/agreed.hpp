@@ -17,8 +17,8 @@ struct agreeing_car {
 
 /// @param now  Times are told from then on.
 /// @returns the drive from the car on: up to where it waits, if it does before
-/// it comes to the crossing; else when it is where, from shortly before the
-/// line on. Nothing if nothing was agreed.
+/// it comes to the crossing; else when it is where, which binds from shortly
+/// before the line on. Nothing if nothing was agreed.
 std::optional<agreed_drive> agreed(const crossing_view& with, time_point now,
                                    const agreeing_car& car);
 

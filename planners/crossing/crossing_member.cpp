@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 namespace sofof::planners {
 namespace {
@@ -110,7 +112,7 @@ void crossing_member::hear(time_point now, const crossing_claim& told,
     x = told_.insert(x, heard{});
   else if (told.generated < x->at)
     return;
-  *x = {{told.who, plan, told.drive.has_value()}, told.generated};
+  *x = {{told.who, plan, told.drive.has_value(), from}, told.generated};
 }
 
 void crossing_member::move(time_point now, const place& own) {
@@ -123,8 +125,10 @@ void crossing_member::move(time_point now, const place& own) {
   if (advised_ && now > advised_->until)
     advised_.reset();
   if (book_.is() != claim_book::state::free && can_stop()
-      && !is_kept(now, claimed_))
+      && !is_kept(now, claimed_)) {
+    if (std::getenv("WHY")) { const auto l=own_.line_m-car_.front_m; const auto th=time_at(claimed_,l); const auto co=own_.plan?time_at(*own_.plan,l):std::nullopt; std::printf("GIVEUP t %.2f who %u s %.1f v %.2f line in %.1f drive in %.2f plan in %.2f plan end %.1f\n", to_seconds(now-time_point{}), me_.value(), own_.s_m, own_.speed_mps, l-own_.s_m, th?to_seconds(*th-now):-9, co?to_seconds(*co-now):-9, own_.plan? own_.plan->points.back().s_m-own_.s_m : -1); }
     book_.give_up();
+  }
   follow_claim(now);
   if (book_.is() == claim_book::state::free && advised_)
     claim(now, advised_->drive);
@@ -134,13 +138,14 @@ void crossing_member::move(time_point now, const place& own) {
 void crossing_member::claim(time_point now, const world::trajectory& drive) {
   const auto at = enters(drive);
   const auto has_left = own_.s_m - car_.rear_m > own_.clear_m;
-  if (!at || has_left || !is_kept(now, drive)
+  if (!at || has_left || done_m_ == own_.line_m || !is_kept(now, drive)
       || (*at - now > rules_.claims_before && can_stop()))
     return;
   const auto claim = claim_of(drive);
   if (claim.empty() || !book_.claim(now, claim, {}))
     return;
   claimed_ = drive;
+  claimed_line_m_ = own_.line_m;
   present_ = {now, std::nullopt, *at,
               time_at(drive, own_.clear_m + car_.rear_m).value_or(drive.end()),
               false};
@@ -157,6 +162,8 @@ void crossing_member::follow_claim(time_point now) {
   if (is != claim_book::state::free)
     return;
   present_->was_kept = present_->bound && now >= present_->leaves;
+  if (present_->was_kept)
+    done_m_ = claimed_line_m_;
   past_ = std::exchange(present_, {});
 }
 

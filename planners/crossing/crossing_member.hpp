@@ -61,6 +61,7 @@ public:
   void end_advice() { advised_.reset(); }
 
   /// Another one tells of itself.
+  /// @param from  Where its front is.
   void hear(time_point now, const crossing_claim& told,
             const claimed_drive& plan, point from);
 
@@ -108,6 +109,8 @@ private:
   std::optional<advice> advised_;
   world::trajectory claimed_; // what the claim is of
   std::optional<past_claim> present_, past_;
+  double claimed_line_m_ = 0;
+  std::optional<double> done_m_; // the line that it has passed by a claim
   place own_;
   struct heard {
     told_drive is;

@@ -47,6 +47,7 @@ struct way_moment {
 /// How the own car goes through a crossing, as was agreed with the others.
 struct agreed_drive {
   std::vector<way_moment> axle;     ///< Of its rear axle; both rising.
+  double binds_from_m = 0;          ///< It has to keep to it from there on.
   std::optional<double> waits_at_m; ///< Its rear axle does, before that.
 };
 

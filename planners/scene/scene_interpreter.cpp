@@ -164,7 +164,7 @@ void scene_interpreter::gather(time_point now, const own_place& me,
         && in_one_place(dot(apart, apart), x.narrow_m(), car.width_m))
       continue;
     assert(x.length_m > 0 && x.width_m > 0);
-    others_.push_back({x, false, false, false});
+    others_.push_back({x});
   }
 }
 
@@ -195,7 +195,7 @@ void scene_interpreter::foresee_cutting_in() {
       for (const auto in_s : {0.7, 1.4}) {
         const auto& x = others_[i].x;
         const auto way_m = in_s * std::max(0.0, x.speed_mps());
-        others_.push_back({lanes_->moved_along(x, way_m), false, false, false});
+        others_.push_back({lanes_->moved_along(x, way_m)});
       }
   assert(others_.size() >= count);
 }

@@ -45,6 +45,7 @@ struct told_drive {
   station_id who = 0;
   claimed_drive drive;       ///< Empty: it says nothing of it.
   bool is_claimed = false;   ///< Nobody else comes there meanwhile.
+  point front{};             ///< Where its front was when it said so.
 };
 
 } // namespace sofof::planners

@@ -18,13 +18,20 @@ namespace {
 constexpr auto elsewhere = std::numeric_limits<double>::infinity();
 
 /// A body is where it says to be; a lead drives as it says.
-constexpr double as_told_m = 3.5, as_told_along_m = 4;
+constexpr double as_told_m = 4, as_told_along_m = 4;
+/// Who is behind its claim by more does not keep it.
+constexpr double late_m = 3;
 /// Drives are looked for on the own way so far from the car.
 constexpr double own_way_m = 200;
 /// A lead is on the own way if it is not farther from it than a car by this.
 constexpr double beside_m = 1;
 constexpr double moves_m = 0.2;
 constexpr duration told_every = std::chrono::milliseconds{200};
+
+point front_of(const oriented_box& body) {
+  const point ahead{std::cos(body.heading_rad), std::sin(body.heading_rad)};
+  return body.centre + 0.5 * body.length_m * ahead;
+}
 
 point rear_of(const oriented_box& body) {
   const point ahead{std::cos(body.heading_rad), std::sin(body.heading_rad)};
@@ -35,22 +42,26 @@ point rear_of(const oriented_box& body) {
 
 void find_those_who_tell(time_point now, std::span<const told_drive> told,
                          bool has_agreed, std::span<other_body> others) {
-  for (const auto& [who, drive, is_claimed] : told) {
+  for (const auto& [who, drive, is_claimed, front] : told) {
     if (drive.empty())
       continue;
     const auto body = drive.at(now);
-    const auto off_m = [&, who = who](const other_body& o) {
-      if (o.x.station)
-        return *o.x.station == who ? 0.0 : elsewhere;
-      return is_along(std::cos(o.x.heading_rad - body.heading_rad))
-                 ? distance_m(o.x.centre(), body.centre)
+    const auto off_m = [&, who = who, front = front](const other_body& o) {
+      if (o.x.station && *o.x.station != who)
+        return elsewhere;
+      return o.x.station
+                     || is_along(std::cos(o.x.heading_rad - body.heading_rad))
+                 ? distance_m(front_of(o.x.body()), front)
                  : elsewhere;
     };
     const auto nearest = std::ranges::min_element(others, {}, off_m);
     if (nearest == others.end() || off_m(*nearest) > as_told_m)
       continue;
     nearest->x.station = who;
-    nearest->takes_part = is_claimed || has_agreed;
+    const point ahead{std::cos(body.heading_rad), std::sin(body.heading_rad)};
+    nearest->has_claimed =
+        is_claimed && dot(body.centre - nearest->x.centre(), ahead) < late_m;
+    nearest->takes_part = nearest->has_claimed || (has_agreed && !is_claimed);
   }
 }
 

@@ -31,7 +31,9 @@ bool keeps_windows(const speed_profile& motion, double step_s,
               || t > window.latest_s + window_slack_s))
         return false;
     const auto promised_s =
-        t < until_anew_s ? task.promised_s(motion[i].s_m) : std::nullopt;
+        t < until_anew_s && motion[i].s_m >= task.promised_from_m
+            ? task.promised_s(motion[i].s_m)
+            : std::nullopt;
     if (promised_s
         && (t < *promised_s - task.sooner_s - window_slack_s
             || t > *promised_s + task.later_s + window_slack_s))

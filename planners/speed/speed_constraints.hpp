@@ -50,7 +50,8 @@ struct speed_constraints {
   std::span<const window> windows;
   /// A drive that others rely on, rising; between them in proportion.
   std::span<const appointment> promised;
-  double sooner_s = 0, later_s = 0; ///< Than promised, at most.
+  double sooner_s = 0, later_s = 0; ///< Than promised, at most, ...
+  double promised_from_m = 0;       ///< ... from there on; before, if it can.
   /// Slower than this up to there: it may have to stop for somebody unseen.
   double caution_mps = never, caution_to_m = 0;
 };

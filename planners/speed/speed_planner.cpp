@@ -1,6 +1,8 @@
 // Setting up the velocity problem, and motions for when it does not fit.
 #include "planners/speed/speed_planner.hpp"
 
+#include "planners/speed/promise.hpp"
+
 #include "planners/speed/clearance.hpp"
 #include "planners/speed/closed_form_motion.hpp"
 
@@ -398,12 +400,8 @@ void speed_planner::set_windows(const speed_constraints& task,
     if (behind < knots)
       latest_[behind] = std::min(latest_[behind], window.latest_s);
   }
-  for (std::size_t k = 0; k < knots && !task.promised.empty(); ++k)
-    if (const auto t =
-            task.promised_s(from.s_m + static_cast<double>(k) * ds_m)) {
-      earliest_[k] = std::max(earliest_[k], *t - task.sooner_s);
-      latest_[k] = std::min(latest_[k], *t + task.later_s);
-    }
+  promised_.resize(knots);
+  bound_by_promise(task, from.s_m, ds_m, earliest_, latest_, promised_);
   if (!task.ahead)
     return;
   const auto& ahead = *task.ahead;
@@ -468,6 +466,10 @@ bool speed_planner::yield_to_braking(const lane_motion& from, double from_s,
     wanted_[k] =
         std::max(std::min(wanted_[k], square(mean) / 2), least_wanted_m2ps2);
   }
+  for (std::size_t k = 0; k < wanted_.size(); ++k)
+    if (promised_[k] < never)
+      wanted_[k] = std::clamp(promised_[k], least_wanted_m2ps2,
+                              std::max(w_max_[k], least_wanted_m2ps2));
   return fits;
 }
 

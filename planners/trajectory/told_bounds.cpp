@@ -29,6 +29,7 @@ void told_bounds::keep_to(const agreed_drive& agreed, double age_s,
       promised_.push_back({way_m, x.t_s - age_s});
   }
   task.promised = promised_;
+  task.promised_from_m = way(agreed.binds_from_m);
   task.sooner_s = task.later_s = kept_to_s;
   if (agreed.waits_at_m)
     task.stop_m =

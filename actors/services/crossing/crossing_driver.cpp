@@ -96,7 +96,7 @@ struct crossing_driver_state {
       self->send(vehicle, std::move(message));
   }
 
-  void on_word(point from, const messages::its_pdu& message) {
+  void on_word(const messages::its_pdu& message) {
     if (!messages::etsi::decode(message.view(), word))
       return;
     const auto t = now(self);
@@ -107,7 +107,7 @@ struct crossing_driver_state {
     planners::crossing_claim claim{said->from, said->at, std::nullopt};
     if (is_claim(*said) && !drive.empty())
       claim.drive = drive;
-    member->hear(t, claim, drive, from);
+    member->hear(t, claim, drive, said->reference);
     record_past();
   }
 
@@ -155,8 +155,8 @@ messages::crossing_driver_actor::behavior_type crossing_driver(
         self->state.manager = manager;
       },
       [self](const messages::payload& own) { self->state.on_own(own); },
-      [self](point from, const messages::its_pdu& message) {
-        self->state.on_word(from, message);
+      [self](point, const messages::its_pdu& message) {
+        self->state.on_word(message);
       },
   };
 }

@@ -6,6 +6,9 @@
 #include "base/protocol.hpp"
 #include "messages/v2x/encoded.hpp"
 
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 namespace sofof::actors {
@@ -42,6 +45,8 @@ public:
         world_->where->ahead_by(message->ahead), now, nullptr, drive);
     if (!fault) // nothing is suggested now
       return {messages::payload::of(world::trajectory{})};
+    if (*fault != messages::maneuver_fault::none && std::getenv("WHY")) { std::printf("FAULT %u t %.2f s %.1f v %.2f points %zu\n", me_.value(), to_seconds(now - time_point{}), request->s_m, request->own.speed_mps, drive.points.size());
+        for (std::size_t i = 0; i < drive.points.size(); ++i) { auto& p = drive.points[i]; if (i < 3 || std::abs(p.accel_mps2) > 4.5 || p.speed_mps * p.speed_mps * std::abs(p.curvature_1pm) > 4 || (i && std::abs(p.speed_mps-drive.points[i-1].speed_mps)>.5)) std::printf("  %zu t %.2f s %.2f v %.2f a %.2f k %.3f\n", i, p.t_s, p.s_m, p.speed_mps, p.accel_mps2, p.curvature_1pm); } }
     if (*fault != messages::maneuver_fault::none)
       return {{}, {}, objection{to_string(*fault), 0, 1}};
     return {messages::payload::of(std::move(drive))};

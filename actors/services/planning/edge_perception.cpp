@@ -83,7 +83,8 @@ void edge_perception::on_word(const messages::decoded_mcm& word, sender_id) {
     return;
   auto& known = said_[word.from];
   if (known.at < word.at)
-    known = {word.at, drive_of(word, where_->frame, {}), is_claim(word)};
+    known = {word.at, drive_of(word, where_->frame, {}), is_claim(word),
+             word.reference};
 }
 
 void edge_perception::drives(std::vector<planners::told_drive>& out,
@@ -92,7 +93,7 @@ void edge_perception::drives(std::vector<planners::told_drive>& out,
   const std::lock_guard lock{mutex_};
   for (const auto& [who, x] : said_)
     if (who != station)
-      out.push_back({who, x.drive, x.is_claimed});
+      out.push_back({who, x.drive, x.is_claimed, x.front});
 }
 
 void edge_perception::on_detections(const messages::roadside_detections& view) {

@@ -73,6 +73,7 @@ private:
     time_point at;
     planners::claimed_drive drive;
     bool is_claimed = false;
+    point front;
   };
   std::map<station_id, said> said_; // of their drives, by MCMs
   messages::georeference_ptr where_;
