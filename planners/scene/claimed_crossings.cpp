@@ -26,7 +26,7 @@ void list_claimed(const world::route& way, double width_m, time_point now,
                   std::vector<crossing_user>& out) {
   assert(width_m > 0);
   constexpr auto never = std::numeric_limits<double>::infinity();
-  for (const auto& [who, drive, is_claimed] : told) {
+  for (const auto& [who, drive, is_claimed, front] : told) {
     if (!is_claimed || drive.empty() || drive.to() < now)
       continue;
     for (const auto& stretch : stretches) {

@@ -1,10 +1,10 @@
 // Setting up the velocity problem, and motions for when it does not fit.
 #include "planners/speed/speed_planner.hpp"
 
-#include "planners/speed/promise.hpp"
 
 #include "planners/speed/clearance.hpp"
 #include "planners/speed/closed_form_motion.hpp"
+#include "planners/speed/promise.hpp"
 
 #include <algorithm>
 #include <cassert>

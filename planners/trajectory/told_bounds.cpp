@@ -14,7 +14,7 @@ constexpr double next_place_m = 0.3, places_apart_m = 0.2;
 constexpr double told_apart_m = 1.0;
 
 /// Where a car waits it may stop with its axle so much farther on.
-constexpr double waits_within_m = 0.6;
+constexpr double rests_within_m = 0.6;
 
 } // namespace
 
@@ -34,7 +34,7 @@ void told_bounds::keep_to(const agreed_drive& agreed, double age_s,
   if (agreed.waits_at_m)
     task.stop_m =
         std::min(task.stop_m,
-                 std::max(0.0, way(*agreed.waits_at_m)) + waits_within_m);
+                 std::max(0.0, way(*agreed.waits_at_m)) + rests_within_m);
 }
 
 void told_bounds::follow(std::span<const way_moment> told, double age_s,
