@@ -39,6 +39,7 @@ struct lane_entry {
     visit_list(s, "limits", zones);
     is.limits.assign(zones.begin(), zones.end());
     s.field("next", is.next);
+    s.field("opposite", is.opposite);
     s.field("points_m", is.centre);
   }
 };
@@ -99,13 +100,20 @@ struct map_entries {
 world::road_map part_of(const map_entries& all, std::size_t i, bool with_next) {
   std::vector<world::lane> lanes{all.lanes[i].is};
   const auto next = std::exchange(lanes[0].next, {});
+  const auto opposite = std::exchange(lanes[0].opposite, {});
   if (with_next) {
     for (std::size_t j = 0; j < all.lanes.size(); ++j) {
       const auto& other = all.lanes[j].is;
-      if (j != i && std::ranges::find(next, other.name) != next.end())
-        lanes.emplace_back(other).next.clear();
+      if (j == i
+          || (other.name != opposite
+              && std::ranges::find(next, other.name) == next.end()))
+        continue;
+      lanes.push_back(other);
+      lanes.back().next.clear();
+      lanes.back().opposite.clear();
     }
     lanes[0].next = next;
+    lanes[0].opposite = opposite;
   }
   return {all.name, all.origin, std::move(lanes)};
 }

@@ -164,8 +164,10 @@ plan_judge::walk plan_judge::follow(const judged_plan& x) const {
     const auto front = p.at + car_.wheelbase_m * axis_of(p.heading_rad, lane);
     const auto under = path.frame(p.s_m + car_.wheelbase_m);
     const auto front_d_m = cross(under.tangent, front - under.at);
-    const auto beyond_m = std::max(std::abs(d_m), std::abs(front_d_m))
-                          + car_.width_m / 2 - bounds.half_width_m;
+    const auto beyond_m =
+        car_.width_m / 2
+        + std::max(std::max(d_m, front_d_m) - bounds.left_m,
+                   -std::min(d_m, front_d_m) - bounds.half_width_m);
     found.beside_m = std::max(found.beside_m, std::abs(d_m));
     assert(std::isfinite(beyond_m) && bounds.half_width_m > 0);
     if (at_first_m == boundless) {

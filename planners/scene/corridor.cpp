@@ -123,12 +123,15 @@ void corridor::pass(const lane_obstacle& body, side_of_road side) {
   const auto from_gap = std::min(body.lacks_m, passing_gap_m - gap_at_last_m);
   const auto over = body.lacks_m - from_gap;
   kept_gap_m_ = std::min(kept_gap_m_, passing_gap_m - from_gap);
+  const auto left = side == side_of_road::left ? body.left_m : 0.0;
   for (int k = 0; k <= steps_; ++k) {
     const auto s = s_m_ + k * ds_m_;
     if (s > body.from_m - evasion_m && s < body.to_m + evasion_m) {
       const auto lane = line_->half_width_m(s);
       lo_[0][k] = std::min(lo_[0][k], -lane);
-      hi_[0][k] = std::max(hi_[0][k], lane);
+      hi_[0][k] = std::max(hi_[0][k], lane + left);
+      for (std::size_t j = 1; j < rows && left > 0; ++j)
+        hi_[j][k] = std::max(hi_[j][k], lane_hi_[j][k] + left);
     }
     assert(!(lo_[0][k] > hi_[0][k])); // the discs are held, not the axle
     for (std::size_t j = 1; j < rows; ++j) {

@@ -23,6 +23,9 @@ struct lane {
   std::vector<speed_zone> limits; ///< Rising `from_m`, the first at 0.
   std::vector<std::string> next;  ///< Names of the lanes that follow.
   int rank = 0; ///< Right of way: 0 goes before 1 goes before 2.
+  /// The lane beside it on the left that is driven the other way, and that may
+  /// be used to pass what blocks this one; empty: none.
+  std::string opposite;
 };
 
 } // namespace sofof::world

@@ -14,6 +14,11 @@ namespace {
 /// How far apart the ends of two lanes in a row may be, m.
 constexpr auto joint_tolerance_m = 0.5;
 
+/// A lane and its opposite are driven against each other to within 25°, their
+/// edges at most so far apart, m.
+constexpr auto against_cosine = -0.906;
+constexpr auto beside_tolerance_m = 0.75;
+
 /// The straight pieces that `near_lanes` measures to end on the centre line, at
 /// multiples of this, m, are at most so many of them long, and so near to what
 /// is between, m.
@@ -73,6 +78,8 @@ road_map::road_map(std::string name, geo_origin origin, std::vector<lane> lanes,
   }
   for (const auto& l : lanes_)
     resolve(l);
+  for (const auto& l : lanes_)
+    check_opposite(l, paths);
   join(first_pieces);
   conflicts_ = find_conflicts(paths, next_);
 }
@@ -89,6 +96,30 @@ void road_map::resolve(const lane& l) {
       refuse("Lane '{}' ends {:.1f} m from where '{}' begins.", l.name, gap_m,
              name);
     followers.push_back(found->second);
+  }
+}
+
+/// Somebody who leaves a lane to the left has to come to the other one.
+void road_map::check_opposite(const lane& l,
+                              std::span<const path> paths) const {
+  if (l.opposite.empty())
+    return;
+  const auto found = index_.find(l.opposite);
+  if (found == index_.end())
+    refuse("Lane '{}' lies opposite '{}', which is not on the map.", l.name,
+           l.opposite);
+  const auto& own = paths[index_.at(l.name)];
+  const auto& other = paths[found->second];
+  const auto apart_m = l.half_width_m + lanes_[found->second].half_width_m;
+  for (const auto share : {0.1, 0.5, 0.9}) {
+    const auto here = own.at(share * own.length_m());
+    const auto on = other.project(here.at);
+    const auto turned_rad = here.heading_rad - other.at(on.s_m).heading_rad;
+    if (std::cos(turned_rad) > against_cosine
+        || std::abs(on.d_m - apart_m) > beside_tolerance_m)
+      refuse("Lane '{}' does not lie beside '{}', on the left and driven the "
+             "other way, at {:.0f} m.",
+             l.opposite, l.name, share * own.length_m());
   }
 }
 

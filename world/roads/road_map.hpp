@@ -72,6 +72,7 @@ private:
 
   void cut(const path& line);
   void resolve(const lane& l);
+  void check_opposite(const lane& l, std::span<const path> paths) const;
   void join(std::span<const std::size_t> first_pieces);
   template <class Predicate>
   const piece* find_ahead(const piece* x, Predicate is_near) const;

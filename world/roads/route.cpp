@@ -52,6 +52,11 @@ route::route(std::string name, std::span<const lane> lanes,
   for (const auto i : sequence_) {
     limits_.push_back(lanes[i].limits);
     half_widths_m_.push_back(lanes[i].half_width_m);
+    left_m_.push_back(lanes[i].half_width_m);
+    const auto beside =
+        std::ranges::find(lanes, lanes[i].opposite, &lane::name);
+    if (beside != lanes.end())
+      left_m_.back() += 2 * beside->half_width_m;
   }
 }
 
@@ -77,13 +82,18 @@ route::bounds route::bounds_at(double s_m) const {
   const auto [i, on_lane_m] = find_leg(s_m);
   const auto after =
       std::ranges::upper_bound(limits_[i], on_lane_m, {}, &speed_zone::from_m);
-  return {half_widths_m_[i], after == limits_[i].begin()
-                                 ? limits_[i].front().limit_mps
-                                 : std::prev(after)->limit_mps};
+  return {half_widths_m_[i],
+          after == limits_[i].begin() ? limits_[i].front().limit_mps
+                                      : std::prev(after)->limit_mps,
+          left_m_[i]};
 }
 
 double route::half_width_m(double s_m) const {
   return half_widths_m_[find_leg(s_m).index];
+}
+
+double route::left_m(double s_m) const {
+  return left_m_[find_leg(s_m).index];
 }
 
 std::vector<point> route::waypoints(double s_m, double ahead_m,

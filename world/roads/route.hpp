@@ -51,9 +51,19 @@ public:
   double limit_mps(double s_m) const;
   double half_width_m(double s_m) const;
 
-  /// Both at once, for who asks often.
+  /// How far it may be driven to the left of the centre line: as far as to the
+  /// right, or to the far side of the lane's opposite.
+  double left_m(double s_m) const;
+
+  /// All at once, for who asks often.
   struct bounds {
-    double half_width_m, limit_mps;
+    double half_width_m, limit_mps, left_m;
+
+    /// @returns whether what reaches from `low_m` to `high_m` across, left
+    /// positive, is on the road.
+    bool hold(double low_m, double high_m) const {
+      return -low_m <= half_width_m && high_m <= left_m;
+    }
   };
   bounds bounds_at(double s_m) const;
 
@@ -74,7 +84,7 @@ private:
   std::vector<std::size_t> sequence_;
   std::vector<double> starts_m_;
   std::vector<std::vector<speed_zone>> limits_; // per lane of the sequence
-  std::vector<double> half_widths_m_;
+  std::vector<double> half_widths_m_, left_m_;
 };
 
 using route_ptr = std::shared_ptr<const route>;
