@@ -1,0 +1,199 @@
+// Advice, claims, and what comes of them.
+#include "planners/crossing/crossing_member.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace sofof::planners {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A claim is a body every so often, and begins so far before the line.
+constexpr duration claimed_every = 200ms;
+constexpr double claims_before_line_m = 1;
+
+/// Who is slower than this, and so far behind its claim, is held up.
+constexpr double held_up_mps = 1, far_behind_m = 5;
+
+/// Who has left the crossing in time but for this has kept its claim.
+constexpr double left_within_m = 5;
+
+/// How a car sets off, ...
+constexpr double gets_going_mps2 = 1.25;
+
+/// ... and stops before a line.
+constexpr double member_stops_mps2 = 2, member_decides_s = 0.5,
+                 member_spare_m = 1;
+
+/// @returns when a drive is at a place; nullopt if it does not come there.
+std::optional<time_point> time_at(const world::trajectory& drive, double s_m) {
+  const auto& all = drive.points;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (all[k].s_m >= s_m) {
+      if (k == 0)
+        return drive.start + from_seconds(all[0].t_s);
+      const auto piece_m = all[k].s_m - all[k - 1].s_m;
+      const auto share = (s_m - all[k - 1].s_m) / piece_m;
+      return drive.start
+             + from_seconds(std::lerp(all[k - 1].t_s, all[k].t_s, share));
+    }
+  return std::nullopt;
+}
+
+} // namespace
+
+crossing_member::crossing_member(station_id me,
+                                 const world::vehicle_params& car, rules r)
+    : me_{me}, car_{car}, rules_{r}, book_{me, r.claims} {}
+
+void crossing_member::advise(time_point now, const world::trajectory& drive) {
+  assert(drive.is_sound());
+  advised_ = {drive, now + rules_.advice_holds};
+}
+
+bool crossing_member::can_stop() const {
+  const auto v = own_.speed_mps;
+  return own_.line_m - own_.s_m - car_.front_m
+         > v * (member_decides_s + v / (2 * member_stops_mps2))
+               + member_spare_m;
+}
+
+std::optional<time_point>
+crossing_member::enters(const world::trajectory& drive) const {
+  return time_at(drive, own_.line_m - car_.front_m);
+}
+
+/// @returns whether it comes to the crossing when the drive does, as far as the
+/// plan in use tells.
+bool crossing_member::is_kept(time_point now,
+                              const world::trajectory& drive) const {
+  const auto line_m = own_.line_m - car_.front_m;
+  if (own_.s_m > line_m)
+    return true;
+  const auto then = time_at(drive, line_m);
+  const auto comes = own_.plan ? time_at(*own_.plan, line_m) : std::nullopt;
+  if (!then)
+    return false;
+  if (!comes) {
+    const auto v = own_.speed_mps, way_m = line_m - own_.s_m;
+    const auto soonest_s =
+        (std::sqrt(v * v + 2 * gets_going_mps2 * way_m) - v) / gets_going_mps2;
+    return now + from_seconds(soonest_s) < *then + from_seconds(rules_.late_s);
+  }
+  return std::abs(to_seconds(*comes - *then)) < rules_.late_s;
+}
+
+/// @returns whether it is held up so far behind what it has claimed that nobody
+/// counts on that any more.
+bool crossing_member::is_held_up(time_point now) const {
+  return own_.speed_mps < held_up_mps && now < claimed_.end()
+         && claimed_.at(now).s_m > own_.s_m + far_behind_m;
+}
+
+claimed_drive crossing_member::claim_of(const world::trajectory& drive) const {
+  claimed_drive claim{{}, claimed_every, {}};
+  const auto from =
+      time_at(drive, own_.line_m - car_.front_m - claims_before_line_m);
+  const auto to = time_at(drive, own_.clear_m + car_.rear_m);
+  if (!from)
+    return claim;
+  claim.from = *from;
+  const auto middle_m = (car_.front_m - car_.rear_m) / 2;
+  const auto end = to.value_or(drive.end());
+  for (auto t = *from; t <= end + claimed_every; t += claimed_every) {
+    const auto p = drive.at(t);
+    const point ahead{std::cos(p.heading_rad), std::sin(p.heading_rad)};
+    claim.bodies.push_back({p.at + middle_m * ahead, p.heading_rad,
+                            car_.front_m + car_.rear_m, car_.width_m});
+  }
+  return claim;
+}
+
+void crossing_member::on_report(time_point now, const crossing_claim& told,
+                                const claimed_drive& plan, point from) {
+  if (told.who == me_)
+    return;
+  const auto matters = distance_m(from, own_.at) < rules_.near_m;
+  book_.on_report(now, told, matters);
+  follow_claim(now);
+  auto x = std::ranges::lower_bound(told_, told.who, {},
+                                    [](const heard& h) { return h.is.who; });
+  if (x == told_.end() || x->is.who != told.who)
+    x = told_.insert(x, heard{});
+  else if (told.generated < x->at)
+    return;
+  *x = {{told.who, plan, told.drive.has_value(), from}, told.generated};
+}
+
+void crossing_member::move(time_point now, const place& own) {
+  assert(std::isfinite(own.s_m) && own.speed_mps >= 0);
+  own_ = own;
+  book_.pass_time(now);
+  std::erase_if(
+      told_, [&](const heard& x) { return now - x.at > rules_.claims.memory; });
+  if (advised_ && now > advised_->until)
+    advised_.reset();
+  if (book_.is() != claim_book::state::free
+      && (can_stop() ? !is_kept(now, claimed_) : is_held_up(now)))
+    book_.give_up();
+  follow_claim(now);
+  if (book_.is() == claim_book::state::free && advised_)
+    claim(now, advised_->drive);
+  own_.plan = nullptr; // it is the caller's
+}
+
+void crossing_member::claim(time_point now, const world::trajectory& drive) {
+  const auto at = enters(drive);
+  const auto has_left =
+      own_.s_m - car_.rear_m > own_.clear_m
+      || drive.points.front().s_m - car_.rear_m > own_.clear_m;
+  if (!at || has_left || done_m_ == own_.line_m || !is_kept(now, drive)
+      || (*at - now > rules_.claims_before && can_stop()))
+    return;
+  const auto claim = claim_of(drive);
+  if (claim.empty() || !book_.claim(now, claim, {}))
+    return;
+  claimed_ = drive;
+  claimed_line_m_ = own_.line_m;
+  claimed_clear_m_ = own_.clear_m;
+  present_ = {now, std::nullopt, *at,
+              time_at(drive, own_.clear_m + car_.rear_m).value_or(drive.end()),
+              false};
+  follow_claim(now);
+}
+
+/// Remembers when a claim is bound, and how it ends.
+void crossing_member::follow_claim(time_point now) {
+  if (!present_)
+    return;
+  const auto is = book_.is();
+  if (is == claim_book::state::bound && !present_->bound)
+    present_->bound = now;
+  if (is != claim_book::state::free)
+    return;
+  present_->was_kept = present_->bound && now >= present_->leaves
+                       && own_.s_m > claimed_clear_m_ - left_within_m;
+  if (present_->was_kept)
+    done_m_ = claimed_line_m_;
+  past_ = std::exchange(present_, {});
+}
+
+const world::trajectory* crossing_member::drive() const {
+  return book_.is() != claim_book::state::free ? &claimed_
+         : advised_                            ? &advised_->drive
+                                               : nullptr;
+}
+
+void crossing_member::look(time_point, crossing_view& out) const {
+  const auto* keeps = drive();
+  out.drive = keeps ? *keeps : world::trajectory{};
+  out.line_m = own_.line_m;
+  out.binds = book_.is() == claim_book::state::bound;
+  out.told.clear();
+  for (const auto& x : told_)
+    out.told.push_back(x.is);
+}
+
+} // namespace sofof::planners
