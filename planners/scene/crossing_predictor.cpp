@@ -115,11 +115,15 @@ void crossing_predictor::judge(const crossing_viewer& me,
   foresee(others);
   for (const auto& own : zones_)
     for (const auto& [who, when] : foreseen_) {
-      auto& [x, is_crossing, cuts_in] = others[who];
+      auto& [x, is_crossing, cuts_in, has_claimed, takes_part] = others[who];
       if (when.side != own.on.other_side() || !std::isfinite(when.leave_s)
           || (when.way_m == 0 && drives_along(x, own.on))
           || (when.is_past && gap_m(x, own.on) > 0))
         continue;
+      if (has_claimed || (takes_part && when.way_m > 0)) {
+        is_crossing = true;
+        continue;
+      }
       const auto first = !gives_way(me, x, when, own);
       const auto hesitates =
           first && forward_mps(x) < hesitant_mps && when.enter_s < soon_s;

@@ -20,6 +20,9 @@ struct other_body {
   track x;
   bool is_crossing = false; ///< On or before a zone ahead of the own front.
   bool cuts_in = false; ///< It comes first to a zone that the own front is on.
+  /// It has claimed the drive on which it is, or waits for that to bind; the
+  /// latter only as long as it is on no zone.
+  bool has_claimed = false, takes_part = false;
 };
 
 /// The vehicle that judges, on its route.

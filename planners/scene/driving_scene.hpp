@@ -38,6 +38,19 @@ struct way_stretch {
   double from_m = 0, to_m = 0;
 };
 
+/// When to be, or somebody is, at a place of the own way.
+struct way_moment {
+  double s_m = 0; ///< Arc length on the own route.
+  double t_s = 0; ///< After `driving_scene::at`.
+};
+
+/// How the own car goes through a crossing, as was agreed with the others.
+struct agreed_drive {
+  std::vector<way_moment> axle;     ///< Of its rear axle; both rising.
+  double binds_from_m = 0;          ///< It has to keep to it from there on.
+  std::optional<double> waits_at_m; ///< Its rear axle does, before that.
+};
+
 /// A body that reaches into the lane but leaves room to pass beside it.
 struct lane_obstacle {
   double from_m = 0, to_m = 0;  ///< Of the body, arc length on the own route.
@@ -46,15 +59,21 @@ struct lane_obstacle {
   double speed_mps = 0; ///< Along the own route; negative when it comes.
   double lacks_m = 0;   ///< So much room is lacking; it is passed all the same,
                         ///< as that has begun, or cannot be stopped any more.
+  double left_m = 0; ///< So much room there is besides, left of the lane: its
+                     ///< opposite is free for long enough.
 };
 
 /// What a driver has to know about the others.
 struct driving_scene {
   time_point at;
   /// The own car has stood for so long that it waits for nobody who stands any
-  /// more, and goes on as far as it can: everybody else may think the same.
+  /// more, goes on as far as it can, and goes before who can let it go without
+  /// effort: everybody else may think the same.
   bool is_impatient = false;
   std::optional<lead_vehicle> lead;
+  std::vector<way_moment> lead_told; ///< Where its rear will be, as it tells;
+                                     ///< rising; empty: it does not.
+  std::optional<agreed_drive> agreed;
   /// The front bumper must not pass this arc length on the own route: a
   /// crossing has not been granted yet.
   std::optional<double> stop_at_m;

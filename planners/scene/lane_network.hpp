@@ -41,6 +41,15 @@ public:
 
   const world::conflict_sides& meetings() const { return meetings_; }
 
+  /// @returns the lanes that begin where one ends, and that end where it
+  /// begins.
+  std::span<const std::size_t> next(std::size_t lane) const {
+    return next_[lane];
+  }
+  std::span<const std::size_t> previous(std::size_t lane) const {
+    return previous_[lane];
+  }
+
   /// @returns the right of way of a conflict's side.
   int rank(std::uint32_t side) const { return ranks_[side]; }
 

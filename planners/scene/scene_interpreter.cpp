@@ -1,8 +1,11 @@
 // What the tracks on the road mean to one vehicle on its route.
 #include "planners/scene/scene_interpreter.hpp"
 
+#include "planners/scene/told_scene.hpp"
+
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -37,6 +40,13 @@ constexpr auto ample_m = 60.0;
 /// So much way a car needs to steer round a body from rest, besides what it
 /// keeps to one ahead; and how it brakes if it is to stand there.
 constexpr auto pulls_out_m = 5.0, calmly_mps2 = 1.5;
+/// From so far behind a body more is seen of the opposite lane.
+constexpr auto looks_past_m = 11.0;
+/// What has stood for so long is overtaken; and for so long in a row, which
+/// may be a queue otherwise, with less than this between.
+constexpr duration surely_stands = std::chrono::seconds{5};
+constexpr duration no_queue = std::chrono::seconds{60};
+constexpr auto queue_gap_m = 25.0;
 /// So far beside its line a car steers round something.
 constexpr auto steers_round_m = 0.1;
 
@@ -82,7 +92,8 @@ scene_interpreter::scene_interpreter(std::shared_ptr<const lane_network> lanes,
 
 void scene_interpreter::describe(time_point now, const own_place& me,
                                  std::span<const track> tracks,
-                                 driving_scene& out) {
+                                 driving_scene& out,
+                                 std::span<const told_drive> told) {
   assert(std::isfinite(me.s_m) && std::isfinite(me.d_m));
   out.at = now;
   out.lead.reset();
@@ -97,13 +108,18 @@ void scene_interpreter::describe(time_point now, const own_place& me,
                         out.keep_free);
   out.is_impatient =
       stands_s(now, me) > crossings_.patience_s(me.station, front_m);
+  find_those_who_tell(now, told, out.agreed.has_value(), others_);
   if (params_.judges_crossings)
     crossings_.judge(
         {me.station, rear_m, front_m, me.speed_mps, out.is_impatient}, others_,
         out.keep_free, out.crossings, out.yields_m);
+  if (!out.agreed) // who has agreed with others knows when they come
+    add_claimed(now, *way_, front_m, corridor_m(), out.keep_free, told,
+                out.crossings);
   foresee_cutting_in();
   find_near(me);
   find_bodies(me, out);
+  list_lead(now, *way_, out.lead, corridor_m(), told, out.lead_told);
   assert(std::ranges::is_sorted(out.crossings, {}, &crossing_user::from_m));
   assert(std::ranges::is_sorted(out.beside, {}, &lane_obstacle::from_m));
 }
@@ -148,7 +164,7 @@ void scene_interpreter::gather(time_point now, const own_place& me,
         && in_one_place(dot(apart, apart), x.narrow_m(), car.width_m))
       continue;
     assert(x.length_m > 0 && x.width_m > 0);
-    others_.push_back({x, false, false});
+    others_.push_back({x});
   }
 }
 
@@ -179,7 +195,7 @@ void scene_interpreter::foresee_cutting_in() {
       for (const auto in_s : {0.7, 1.4}) {
         const auto& x = others_[i].x;
         const auto way_m = in_s * std::max(0.0, x.speed_mps());
-        others_.push_back({lanes_->moved_along(x, way_m), false, false});
+        others_.push_back({lanes_->moved_along(x, way_m)});
       }
   assert(others_.size() >= count);
 }
@@ -341,19 +357,67 @@ scene_interpreter::measure_ahead(const own_place& me, const near& where) const {
   return print;
 }
 
-/// @param may_pass  What is certain leaves room: it may turn out to be
-///                  passable, and then there must be way to steer round it.
+/// @param pull_out_m  Besides what it keeps: it may turn out to be passable,
+///                    and then there must be way to steer round it.
 lead_vehicle scene_interpreter::leading(const own_place& me, const track& x,
                                         const footprint& b,
-                                        bool may_pass) const {
+                                        double pull_out_m) const {
   const auto front_m = me.s_m + params_.car.front_m;
   const auto stop_m = me.speed_mps * me.speed_mps / (2 * calmly_mps2);
-  const auto back_m =
-      may_pass ? std::clamp(b.from_m - front_m - stop_m, 0.0, pulls_out_m)
-               : 0.0;
+  const auto back_m = std::clamp(b.from_m - front_m - stop_m, 0.0, pull_out_m);
   assert(back_m >= 0 && b.to_m > front_m);
   return {x.station, b.from_m - back_m, std::max(b.speed_mps, 0.0),
           b.speed_mps > 0 ? std::min(x.accel_mps2 * b.cosine, 0.0) : 0};
+}
+
+/// @returns whether a body blocks the lane by itself, where the opposite one
+/// may be used: no crossing is near, and nothing else stands close behind it,
+/// or all has stood for so long that it is no queue.
+bool scene_interpreter::blocks_alone(
+    const own_place& me, const near& where, const footprint& b,
+    std::span<const way_stretch> keep_free) const {
+  const auto& x = others_[where.who].x;
+  const auto has_stood = [](const track& t, duration least) {
+    return t.stands() && t.at - t.moved >= least;
+  };
+  const auto is_near = [&](const way_stretch& s) {
+    return s.to_m > b.from_m - leaves_before_m
+           && s.from_m < b.to_m + is_back_after_m + queue_gap_m;
+  };
+  const auto may_queue = [&](const near& n) {
+    if (n.who == where.who || n.low_m > b.to_m + queue_gap_m)
+      return false;
+    const auto other = measure_ahead(me, n);
+    return other && other->to_m > b.from_m
+           && other->from_m < b.to_m + queue_gap_m
+           && other->low_m < corridor_m() && other->high_m > -corridor_m()
+           && !(has_stood(others_[n.who].x, no_queue)
+                && has_stood(x, no_queue));
+  };
+  return params_.sees_opposite_m > 0 && has_stood(x, surely_stands)
+         && std::ranges::none_of(keep_free, is_near)
+         && std::ranges::none_of(near_, may_queue);
+}
+
+/// @returns whether who comes on the opposite lane leaves time to overtake.
+bool scene_interpreter::has_time(const own_place& me, const near& where,
+                                 const footprint& b) {
+  const auto& car = params_.car;
+  const auto& x = others_[where.who].x;
+  const auto rear_m = me.s_m - car.rear_m, front_m = me.s_m + car.front_m;
+  const auto eye =
+      offset(way_->path().at(me.s_m), (car.front_m - car.rear_m) / 2, me.d_m);
+  const auto sees_to_m = opposite_in_sight_m(
+      *way_, eye, b.from_m, params_.sees_opposite_m, params_.houses, x.body());
+  coming_.clear();
+  for (std::size_t i = 0; i < seen_; ++i)
+    if (i != where.who)
+      add_if_opposite(*way_, rear_m, front_m + params_.horizon_m, others_[i].x,
+                      coming_);
+  return has_time_to_overtake(*way_,
+                              {rear_m, front_m, me.speed_mps, sees_to_m,
+                               std::ranges::binary_search(were_beside_, x.id)},
+                              {b.from_m, b.to_m}, coming_);
 }
 
 void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
@@ -368,8 +432,8 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
     if (!print)
       continue;
     auto b = *print;
-    const auto& [x, is_crossing, cuts_in] = others_[where.who];
-    if (is_crossing && !is_along(b.cosine))
+    const auto& x = others_[where.who].x;
+    if (others_[where.who].is_crossing && !is_along(b.cosine))
       continue;
     const auto is_in_the_way = [&](double margin_m) {
       return b.low_m - margin_m < corridor_m()
@@ -392,15 +456,26 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
       margin_m -= std::clamp(lacking_m(margin_m) - may_lack_m, 0.0, margin_m);
     const auto lacks_m = lacking_m(margin_m);
     const auto certainly_lacks_m = lacking_m(0);
+    const auto left_m = way_->left_m(b.from_m) - b.half_lane_m;
+    const auto is_overtaken =
+        lacks_m > may_lack_m + 2 * rounding_m && left_m > 0
+        && need_m + margin_m <= b.half_lane_m + left_m - b.high_m
+        && blocks_alone(me, where, b, out.keep_free);
+    const auto fits_opposite =
+        is_overtaken && (passes || has_time(me, where, b));
     b.low_m -= margin_m;
     b.high_m += margin_m;
-    if (lacks_m <= may_lack_m + 2 * rounding_m) {
-      out.beside.push_back(
-          {b.from_m, b.to_m, b.low_m, b.high_m, b.speed_mps, lacks_m});
+    if (fits_opposite || lacks_m <= may_lack_m + 2 * rounding_m) {
+      out.beside.push_back({b.from_m, b.to_m, b.low_m, b.high_m, b.speed_mps,
+                            fits_opposite ? 0.0 : lacks_m,
+                            fits_opposite ? left_m : 0.0});
       beside_.push_back(x.id);
     } else if (b.to_m > front_m
                && (!out.lead || b.from_m < out.lead->rear_s_m)) {
-      out.lead = leading(me, x, b, x.stands() && certainly_lacks_m <= 0);
+      out.lead = leading(me, x, b,
+                         is_overtaken                           ? looks_past_m
+                         : x.stands() && certainly_lacks_m <= 0 ? pulls_out_m
+                                                                : 0.0);
     }
   }
   std::ranges::sort(beside_);

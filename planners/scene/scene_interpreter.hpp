@@ -5,6 +5,8 @@
 #include "planners/scene/crossing_predictor.hpp"
 #include "planners/scene/driving_scene.hpp"
 #include "planners/scene/lane_network.hpp"
+#include "planners/scene/opposite_view.hpp"
+#include "planners/scene/told_drive.hpp"
 #include "planners/scene/track.hpp"
 #include "world/vehicle/vehicle.hpp"
 
@@ -24,6 +26,9 @@ struct scene_params {
       (corridor::room_beside_m - world::vehicle_params{}.width_m) / 2;
   bool judges_crossings = false; ///< Else they are granted by somebody else.
   double foresight_s = 10;       ///< Others get so far at their present speed.
+  /// Of the own sensor, on the opposite lane; 0: it is never used.
+  double sees_opposite_m = 0;
+  const line_of_sight* houses = nullptr; ///< Hide it; null: there are none.
   world::vehicle_params car{};
 };
 
@@ -41,7 +46,8 @@ struct own_place {
 /// * beside, when it reaches into the lane but leaves room for the own body
 ///   and both margins on one side; once it has been that, with a little less
 ///   room too, and with 0.3 m beside the own body when there is no way to stop
-///   before it any more;
+///   before it any more; or room enough with the opposite lane, if it stands
+///   there by itself and that is free for long enough;
 /// * the lead, when it is the nearest that reaches into the way of the own
 ///   body (and margins) on the centre line, and leaves no such room; bodies
 ///   beyond it are not looked for;
@@ -64,8 +70,11 @@ public:
   /// @param tracks  At most as new as `now`; the own one may be among them
   ///                and is known by its station or its place.
   /// @param out     Its vectors are reused.
+  /// @param told    What others that take part say; those that do are not
+  ///                judged by what is seen of them.
   void describe(time_point now, const own_place& me,
-                std::span<const track> tracks, driving_scene& out);
+                std::span<const track> tracks, driving_scene& out,
+                std::span<const told_drive> told = {});
 
 private:
   struct near { // part of the way
@@ -90,13 +99,16 @@ private:
   std::optional<footprint> measure_ahead(const own_place& me,
                                          const near& where) const;
   lead_vehicle leading(const own_place& me, const track& x, const footprint& b,
-                       bool may_pass) const;
+                       double pull_out_m) const;
   void find_bodies(const own_place& me, driving_scene& out);
   double corridor_m() const {
     return params_.car.width_m / 2 + params_.margin_m;
   }
   bool has_to_pass(const own_place& me, const track& x,
                    const footprint& b) const;
+  bool blocks_alone(const own_place& me, const near& where, const footprint& b,
+                    std::span<const way_stretch> keep_free) const;
+  bool has_time(const own_place& me, const near& where, const footprint& b);
 
   std::shared_ptr<const lane_network> lanes_;
   world::route_ptr way_;
@@ -109,6 +121,7 @@ private:
   std::size_t seen_ = 0; // of them; the rest is where those who cut in will be
   std::vector<near> near_;
   std::vector<std::uint32_t> beside_, were_beside_; // their tracks, sorted
+  std::vector<oncoming_body> coming_;
   std::optional<time_point> stands_since_;
 };
 

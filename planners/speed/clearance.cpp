@@ -13,6 +13,13 @@ constexpr double slack_m = 0.1;
 
 } // namespace
 
+namespace {
+
+/// How a promise is kept later than this, s, is planned anew until then.
+constexpr double until_anew_s = 5;
+
+} // namespace
+
 bool keeps_windows(const speed_profile& motion, double step_s,
                    const speed_constraints& task) {
   assert(step_s > 0 && !motion.empty());
@@ -23,6 +30,14 @@ bool keeps_windows(const speed_profile& motion, double step_s,
           && (t < window.earliest_s - window_slack_s
               || t > window.latest_s + window_slack_s))
         return false;
+    const auto promised_s =
+        t < until_anew_s && motion[i].s_m >= task.promised_from_m
+            ? task.promised_s(motion[i].s_m)
+            : std::nullopt;
+    if (promised_s
+        && (t < *promised_s - task.sooner_s - window_slack_s
+            || t > *promised_s + task.later_s + window_slack_s))
+      return false;
   }
   return true;
 }

@@ -29,4 +29,18 @@ double speed_constraints::follower::when_s(double way_m) const {
   return rest < 0 ? never : (v - std::sqrt(rest)) / b;
 }
 
+std::optional<double> speed_constraints::promised_s(double way_m) const {
+  const auto next =
+      std::ranges::lower_bound(promised, way_m, {}, &appointment::at_m);
+  if (next == promised.end()
+      || (next == promised.begin() && next->at_m > way_m))
+    return std::nullopt;
+  if (next == promised.begin())
+    return next->time_s;
+  const auto& last = *std::prev(next);
+  assert(last.at_m < way_m && way_m <= next->at_m);
+  return std::lerp(last.time_s, next->time_s,
+                   (way_m - last.at_m) / (next->at_m - last.at_m));
+}
+
 } // namespace sofof::planners

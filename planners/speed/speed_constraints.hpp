@@ -35,11 +35,23 @@ struct speed_constraints {
     double latest_s = never;
   };
 
+  /// When to be at some place.
+  struct appointment {
+    double at_m = 0, time_s = 0;
+  };
+
+  /// @returns when to be there, as was promised; nullopt: whenever.
+  std::optional<double> promised_s(double way_m) const;
+
   double speed_mps = 0;
   double accel_mps2 = 0;
   double stop_m = never; ///< Must not be passed: a line, the route's end.
   std::optional<follower> ahead;
   std::span<const window> windows;
+  /// A drive that others rely on, rising; between them in proportion.
+  std::span<const appointment> promised;
+  double sooner_s = 0, later_s = 0; ///< Than promised, at most, ...
+  double promised_from_m = 0;       ///< ... from there on; before, if it can.
   /// Slower than this up to there: it may have to stop for somebody unseen.
   double caution_mps = never, caution_to_m = 0;
 };

@@ -3,6 +3,7 @@
 
 #include "planners/speed/clearance.hpp"
 #include "planners/speed/closed_form_motion.hpp"
+#include "planners/speed/promise.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -53,6 +54,9 @@ constexpr double recovery_jerk_mps3 = 5.0;
 constexpr double lateral_margin = 0.975;
 constexpr double least_curvature_1pm = 1e-4;
 constexpr double least_wanted_m2ps2 = 0.125;
+
+/// On speeds that others count on; comfort is in them already.
+constexpr double weight_of_promised_speeds = 2;
 
 /// Way to rest when braking builds up at a jerk.
 double stopping_m(double v, double a, double decel, double jerk) {
@@ -317,6 +321,8 @@ velocity_problem speed_planner::pose(const beginning& start,
   p.curvature_1pm = bends_;
   p.earliest_s = earliest_;
   p.latest_s = latest_;
+  if (std::ranges::any_of(promised_, [](double x) { return x < never; }))
+    p.weights.speed = weight_of_promised_speeds;
   if (ahead.stops)
     p.stop_knot = ahead.steps;
   p.limits.accel_min_mps2 = std::min(-decel_mps2, from.accel_mps2);
@@ -398,6 +404,8 @@ void speed_planner::set_windows(const speed_constraints& task,
     if (behind < knots)
       latest_[behind] = std::min(latest_[behind], window.latest_s);
   }
+  promised_.resize(knots);
+  bound_by_promise(task, from.s_m, ds_m, earliest_, latest_, promised_);
   if (!task.ahead)
     return;
   const auto& ahead = *task.ahead;
@@ -462,6 +470,10 @@ bool speed_planner::yield_to_braking(const lane_motion& from, double from_s,
     wanted_[k] =
         std::max(std::min(wanted_[k], square(mean) / 2), least_wanted_m2ps2);
   }
+  for (std::size_t k = 0; k < wanted_.size(); ++k)
+    if (promised_[k] < never)
+      wanted_[k] = std::clamp(promised_[k], least_wanted_m2ps2,
+                              std::max(w_max_[k], least_wanted_m2ps2));
   return fits;
 }
 

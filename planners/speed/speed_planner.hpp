@@ -111,7 +111,7 @@ private:
   speed_profile motion_;
   int steps_ = 0; // of the motion
   // The velocity problem, knot by knot.
-  std::vector<double> w_max_, wanted_, bends_, earliest_, latest_;
+  std::vector<double> w_max_, wanted_, bends_, earliest_, latest_, promised_;
 };
 
 } // namespace sofof::planners

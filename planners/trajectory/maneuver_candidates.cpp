@@ -19,6 +19,10 @@ constexpr double gap_at_last_s = 0.5;
 /// Whoever can stay off a place by braking so little may have to, for a car
 /// that cannot stop before it any more.
 constexpr double little_braking_mps2 = 1.5;
+/// Who has waited for long asks others to let it go: those who can stay off by
+/// braking even less may come to the place before the own car has left it, as
+/// they come now.
+constexpr double asked_braking_mps2 = 1.0, gap_asked_s = -1.5;
 /// Who waits at a line or is slow, or hardly moves, may come so far beyond it:
 /// a place begins before bodies touch.
 constexpr double waits_within_m = 0.5, stands_within_m = 1.5;
@@ -64,6 +68,10 @@ bool is_minded(const crossing_user& user, double line_m,
          && user.leave_s + gap_after_s > soonest_s(line_m, car);
 }
 
+bool may_be_asked(const crossing_user& user) {
+  return user.brakes_mps2 < asked_braking_mps2;
+}
+
 /// The first cars to come; of more there is no telling anyway.
 void find_cars(std::span<const crossing_user> users, const crossing_car& car,
                const auto& line_of, minded_cars& found) {
@@ -79,7 +87,10 @@ void find_cars(std::span<const crossing_user> users, const crossing_car& car,
     if (known != all.begin() + count)
       known->enter_s = std::min(known->enter_s, user.enter_s);
     else if (count < all.size())
-      all[count++] = {user.body, user.enter_s, gap_to_begin_s, false};
+      all[count++] = {user.body, user.enter_s,
+                      car.is_impatient && may_be_asked(user) ? gap_asked_s
+                                                             : gap_to_begin_s,
+                      false};
   }
   std::ranges::sort(all.begin(), all.begin() + count, {}, [](const auto& x) {
     return std::pair{x.enter_s, x.body};
@@ -127,7 +138,9 @@ minded_cars find_minded(std::span<const crossing_user> users,
           x.committed
           || (before && stopping_m(car) > way(user.from_m - car.front_m));
       if (before)
-        x.gap_s = x.committed ? gap_at_last_s : gap_once_begun_s;
+        x.gap_s = x.committed          ? gap_at_last_s
+                  : may_be_asked(user) ? std::min(x.gap_s, gap_asked_s)
+                                       : gap_once_begun_s;
     }
   }
   assert(found.car_count == 0 || found.count > 0);
@@ -280,8 +293,9 @@ bool list_orders(std::span<const crossing_user> users, const crossing_car& car,
 
 bool leaves_room(const lane_obstacle& body, side_of_road side,
                  double half_width_m) {
-  const auto room = side == side_of_road::right ? body.low_m + half_width_m
-                                                : half_width_m - body.high_m;
+  const auto room = side == side_of_road::right
+                        ? body.low_m + half_width_m
+                        : half_width_m + body.left_m - body.high_m;
   return room >= corridor::room_beside_m - body.lacks_m;
 }
 

@@ -55,6 +55,7 @@ struct crossing_car {
   double max_accel_mps2 = 0;
   double firm_decel_mps2 = 2.5;
   double accel_mps2 = 0;
+  bool is_impatient = false; ///< As in `driving_scene`.
 };
 
 /// @returns when the car has come so far, at the soonest, s.

@@ -245,8 +245,9 @@ double spatial_planner::way_from_car(double s_m) const {
   return path_->path().empty() ? s_m - s_m_ : path_->path().way_m(s_m) - way_m_;
 }
 
-speed_constraints spatial_planner::task(const scene& at) const {
+speed_constraints spatial_planner::task(const scene& at) {
   assert(at.start.speed_mps >= 0 && std::isfinite(at.start.accel_mps2));
+  const auto way = [this](double s) { return way_from_car(s); };
   speed_constraints t;
   t.speed_mps = at.start.speed_mps;
   t.accel_mps2 = at.start.accel_mps2;
@@ -274,6 +275,8 @@ speed_constraints spatial_planner::task(const scene& at) const {
                {lead.speed_mps, brakes ? lead.accel_mps2 : 0}};
   }
   assert(!t.ahead || t.ahead->lead.accel_mps2 <= 0);
+  if (at.others.agreed)
+    agreed_.keep_to(*at.others.agreed, at.age_s, way, t);
   return t;
 }
 
@@ -287,7 +290,7 @@ crossing_car spatial_planner::crossing(const scene& at) const {
   return {style_.front_m,        car_.rear_m,
           at.start.speed_mps,    top_mps,
           style_.max_accel_mps2, style_.firm_decel_mps2(),
-          at.start.accel_mps2};
+          at.start.accel_mps2,   at.others.is_impatient};
 }
 
 // Before a place where others cross, rather than on it, where the way out is
@@ -372,9 +375,15 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
       trial->forget();
     auto t = free;
     t.windows = std::span{order.windows}.first(order.count);
+    told_.follow(at.others.lead_told, at.age_s, style_.front_m, way, t);
     t.stop_m = std::min(t.stop_m, order.stop_m);
     t.stop_m = kept_free_m(t, at);
-    const auto result = trial->plan(path_->path(), way_m_, t, go_on);
+    auto result = trial->plan(path_->path(), way_m_, t, go_on);
+    if (trial->motion().empty() && !t.promised.empty()) {
+      t.later_s = speed_constraints::never;
+      report.is_late = true;
+      result = trial->plan(path_->path(), way_m_, t, go_on);
+    }
     report.iterations += result.report.iterations;
     if (best == nothing_yet)
       report.velocity = result.report.status;

@@ -6,6 +6,7 @@
 #include "planners/speed/speed_planner.hpp"
 #include "planners/trajectory/maneuver_candidates.hpp"
 #include "planners/trajectory/spatial_params.hpp"
+#include "planners/trajectory/told_bounds.hpp"
 #include "planners/trajectory/trajectory_planner.hpp"
 
 #include <memory>
@@ -44,7 +45,7 @@ private:
                  const ocp::budget& go_on);
   bool plan_speed(const scene& at, plan_report& report,
                   const ocp::budget& go_on);
-  speed_constraints task(const scene& at) const;
+  speed_constraints task(const scene& at);
   crossing_car crossing(const scene& at) const;
   double kept_free_m(const speed_constraints& t, const scene& at) const;
   bool rests_among(const speed_profile& motion, const scene& at) const;
@@ -81,6 +82,7 @@ private:
   std::vector<crossing_user> users_;
   std::vector<passing_order> all_sides_;
   std::vector<crossing_order> all_orders_;
+  told_bounds agreed_, told_;
   speed_profile kept_;
   std::optional<time_point> made_;      // start of the last plan
   std::optional<time_point> kept_from_; // start of the plan that is kept

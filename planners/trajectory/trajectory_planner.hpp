@@ -33,6 +33,7 @@ struct plan_report {
   std::int32_t iterations = 0; ///< Newton steps of all candidates.
   std::int32_t candidates = 1; ///< Plans that were weighed.
   std::uint32_t choice = 0;    ///< Which of them: sides and orders, as bits.
+  bool is_late = false;        ///< It does not keep to what was agreed.
   time_point input;            ///< When what it was made from held.
   /// Of the plan as it was made; on the air it is rounded.
   std::optional<world::motion_extremes> extremes;

@@ -173,6 +173,26 @@ TEST_CASE("who can stay off by braking little lets a car pass that cannot stop "
   CHECK_FALSE(goes({.before = {1}}));
 }
 
+TEST_CASE("who has waited for long goes before those whom it costs little "
+          "braking, and only those") {
+  crossing_car waiting{4, 1, 0, 14, 1.5};
+  auto other = user(6, 11, 4, 6, true, 1); // clear of it in 4.6 s
+  const auto goes = [&](const crossing_choice& last = {}) {
+    return lists(orders({other}, last, 16, waiting), 1);
+  };
+  other.brakes_mps2 = 0.9;
+  CHECK_FALSE(goes());
+  waiting.is_impatient = true;
+  CHECK(goes());
+  other.brakes_mps2 = 1.1;
+  CHECK_FALSE(goes());
+  // Having begun it goes on, as long as that is all it asks.
+  waiting = {4, 1, 1, 14, 1.5};
+  CHECK_FALSE(goes({.before = {1}}));
+  other.brakes_mps2 = 0.9;
+  CHECK(goes({.before = {1}}));
+}
+
 TEST_CASE("waiting is always possible, among however few; what was decided "
           "last comes first") {
   test::dice dice{1};

@@ -26,6 +26,8 @@ public:
     return lanes_;
   }
 
+  const planners::line_of_sight& houses() const { return houses_; }
+
   /// @param at_provider  It is for plans that are made there.
   planners::route_profile_ptr profile(const world::route_ptr& way,
                                       bool at_provider);

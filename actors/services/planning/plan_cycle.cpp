@@ -21,15 +21,16 @@ plan_cycle::plan_cycle(const planning_world& world, station_id station,
       planner_{world.options.make(way_, *world.roads, at_provider)},
       scene_{world.roads->lanes(),
              way_,
-             {.judges_crossings = !world.crossings_granted}} {}
+             {.judges_crossings = !world.crossings_granted,
+              .sees_opposite_m = world.eyes.range_m,
+              .houses = &world.roads->houses()}} {}
 
-planners::plan_report plan_cycle::run(time_point now,
-                                      planners::planning_input from,
-                                      std::span<const planners::track> others) {
-  const auto stop_at_m = from.others.stop_at_m;
+planners::plan_report
+plan_cycle::run(time_point now, planners::planning_input from,
+                std::span<const planners::track> others,
+                std::span<const planners::told_drive> told) {
   const planners::own_place me{station_, from.s_m, from.d_m, from.speed_mps};
-  scene_.describe(now, me, others, from.others);
-  from.others.stop_at_m = stop_at_m;
+  scene_.describe(now, me, others, from.others, told);
   const auto start = clock_();
   const auto in_time = [&](int) { return clock_() - start < deadline; };
   auto report = planner_->plan(now, from, plan_.empty() ? nullptr : &plan_,

@@ -36,9 +36,10 @@ public:
   }
 
   /// Plans from here, given what is known of the others. `from.others` is
-  /// filled in, but for what it says of stopping.
+  /// filled in, but for what it says of stopping and of what was agreed.
   planners::plan_report run(time_point now, planners::planning_input from,
-                            std::span<const planners::track> others);
+                            std::span<const planners::track> others,
+                            std::span<const planners::told_drive> told = {});
 
 private:
   station_id station_;

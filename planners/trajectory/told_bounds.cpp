@@ -1,0 +1,57 @@
+// Drives that are agreed on or told, as bounds of the own speeds.
+#include "planners/trajectory/told_bounds.hpp"
+
+#include <algorithm>
+
+namespace sofof::planners {
+namespace {
+
+constexpr double kept_to_s = 0.25;
+constexpr double told_gap_s = 1.0, told_gap_m = 2.5;
+
+/// Places that are nearer to the car, or to each other, say nothing new.
+constexpr double next_place_m = 0.3, places_apart_m = 0.2;
+constexpr double told_apart_m = 1.0;
+
+/// Where a car waits it may stop with its axle so much farther on.
+constexpr double rests_within_m = 0.6;
+
+} // namespace
+
+void told_bounds::keep_to(const agreed_drive& agreed, double age_s,
+                          const way_from_car& way, speed_constraints& task) {
+  promised_.clear();
+  for (const auto& x : agreed.axle) {
+    const auto way_m = way(x.s_m);
+    if (way_m > next_place_m
+        && (promised_.empty()
+            || way_m > promised_.back().at_m + places_apart_m))
+      promised_.push_back({way_m, x.t_s - age_s});
+  }
+  task.promised = promised_;
+  task.promised_from_m = way(agreed.binds_from_m);
+  task.sooner_s = task.later_s = kept_to_s;
+  if (agreed.waits_at_m)
+    task.stop_m = std::min(task.stop_m, std::max(0.0, way(*agreed.waits_at_m))
+                                            + rests_within_m);
+}
+
+void told_bounds::follow(std::span<const way_moment> told, double age_s,
+                         double front_m, const way_from_car& way,
+                         speed_constraints& task) {
+  if (told.empty())
+    return;
+  windows_.clear();
+  for (const auto& x : told) {
+    const auto way_m = way(x.s_m - front_m) - told_gap_m;
+    if (way_m > 0
+        && (windows_.empty() || way_m > windows_.back().at_m + told_apart_m))
+      windows_.push_back(
+          {way_m, x.t_s - age_s + told_gap_s, speed_constraints::never});
+  }
+  windows_.insert(windows_.end(), task.windows.begin(), task.windows.end());
+  task.windows = windows_;
+  task.ahead.reset();
+}
+
+} // namespace sofof::planners
