@@ -170,8 +170,33 @@ using acceptor_actor = caf::typed_actor<
     caf::result<std::uint32_t, std::uint64_t, std::string,
                 caf::strong_actor_ptr>(std::uint32_t, std::uint64_t)>;
 
+/// Hears what other vehicles tell everybody.
+using air_listener_actor = caf::typed_actor<
+    // A station there has said this.
+    reacts_to<point, its_pdu>>;
+
+/// All that vehicles tell each other crosses it.
+using air_actor = caf::typed_actor<
+    // A station is here, and hears by this.
+    reacts_to<station_id::rep, point, air_listener_actor>,
+    // A station there tells everybody.
+    reacts_to<station_id::rep, point, its_pdu>>;
+
+/// Agrees with others how its vehicle goes through a crossing.
+using crossing_driver_actor = client_actor::extend<
+    // The own vehicle is here, and drives so.
+    reacts_to<payload>,
+    // As air_listener_actor takes it.
+    reacts_to<point, its_pdu>>;
+
 /// A car: moves, sends CAMs, follows the trajectories it is given.
 using vehicle_actor = client_actor::extend<
+    // Who agrees with others for it, and wants to know how it drives.
+    reacts_to<crossing_driver_actor>,
+    // What was agreed, ...
+    reacts_to<payload>,
+    // ... and what to tell everybody about it.
+    reacts_to<its_pdu>,
     // What the driver has to know about the others.
     reacts_to<world::perception>,
     // It is on the road now: its place was free.

@@ -66,4 +66,8 @@ CAF_ADD_TYPE_ID(sofof, (sofof::messages::begin_atom))
 CAF_ADD_TYPE_ID(sofof, (sofof::messages::no_standby_atom))
 CAF_ADD_TYPE_ID(sofof, (sofof::messages::admission))
 
+CAF_ADD_TYPE_ID(sofof, (sofof::messages::air_actor))
+CAF_ADD_TYPE_ID(sofof, (sofof::messages::air_listener_actor))
+CAF_ADD_TYPE_ID(sofof, (sofof::messages::crossing_driver_actor))
+
 CAF_END_TYPE_ID_BLOCK(sofof)

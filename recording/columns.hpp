@@ -41,6 +41,15 @@ struct margin_row {
   const messages::session_id& id() const { return x.session; }
 };
 
+struct claim_row {
+  const messages::claim_record& x;
+  row_context in;
+
+  decimal at(std::optional<time_point> t) const {
+    return t ? seconds(*t - in.start) : decimal{std::nullopt, 9};
+  }
+};
+
 struct disturbed_row {
   const disturbed_messages& of;
 };
@@ -73,6 +82,7 @@ inline constexpr int angle_places = 6;
 inline constexpr int comfort_places = 6;
 inline constexpr int margin_places = 4;
 inline constexpr int energy_places = 6;
+inline constexpr int delay_places = 3;
 
 // Which offloading it was.
 inline constexpr auto station = [](const auto& r) {
@@ -162,6 +172,16 @@ inline constexpr csv_column<margin_row> of_margins[]{
     {"left", [](const auto& r) { return rounded(r.of.left, margin_places); }},
 };
 
+inline constexpr csv_column<claim_row> of_claims[]{
+    {"station", [](const auto& r) { return r.x.station.value(); }},
+    {"lane", [](const auto& r) { return std::string_view{r.x.lane}; }},
+    {"claimed_s", [](const auto& r) { return r.at(r.x.claimed); }},
+    {"bound_s", [](const auto& r) { return r.at(r.x.bound); }},
+    {"enters_s", [](const auto& r) { return r.at(r.x.enters); }},
+    {"leaves_s", [](const auto& r) { return r.at(r.x.leaves); }},
+    {"kept", [](const auto& r) { return r.x.was_kept; }},
+};
+
 inline constexpr csv_column<disturbed_row> of_disturbed[]{
     {"t_s", [](const auto& r) { return seconds(r.of.x.at); }},
     {"provider", [](const auto& r) { return std::string_view{r.of.provider}; }},
@@ -236,6 +256,19 @@ inline constexpr csv_column<vehicle_row> of_vehicles[]{
      [](const auto& r) {
        return rounded(r.x.ride.comfort_cost_m2ps3, comfort_places);
      }},
+    {"delay_s",
+     [](const auto& r) {
+       return rounded(r.x.trip ? std::optional{r.x.trip->delay_s()}
+                               : std::nullopt,
+                      delay_places);
+     }},
+    {"stops", [](const auto& r) { return r.x.trip ? r.x.trip->stops : 0; }},
+    {"longest_stop_s",
+     [](const auto& r) {
+       return rounded(r.x.trip ? r.x.trip->longest_stop_s : 0, delay_places);
+     }},
+    {"arrived",
+     [](const auto& r) { return r.x.trip && r.x.trip->has_arrived; }},
     {"on_board_cycles", [](const auto& r) { return r.cycles.on_board; }},
     {"offloaded_cycles", [](const auto& r) { return r.cycles.offloaded; }},
     {"energy_j",

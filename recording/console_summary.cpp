@@ -388,6 +388,8 @@ std::string table(const metrics& m, const run_info& run, const run_end& end,
     safety_lines(out, paint, whole);
     if (m.safety().driven > duration::zero())
       lines_of(out, paint, whole, "comfort", console_block::comfort);
+    if (m.traffic().longest_stop_s())
+      lines_of(out, paint, whole, "traffic", console_block::traffic);
     if (m.work().energy().all_on_board_j > 0)
       lines_of(out, paint, whole, "energy of all services",
                console_block::energy);

@@ -37,6 +37,14 @@ std::optional<double> if_planned(const whole_run& x, double value) {
   return only_if(plans.count > plans.emergency, value);
 }
 
+/// Of routes that lead round there is no end to arrive at.
+std::optional<double> arrived_per_h(const whole_run& x) {
+  constexpr double s_per_h = 3600;
+  const auto count = static_cast<double>(x.of.traffic().arrived());
+  return only_if(count > 0 && x.end.virtual_s > 0,
+                 s_per_h * count / x.end.virtual_s);
+}
+
 // Only modelled cells count what they carry.
 std::optional<double> if_sent(const service_in_run& x, std::uint64_t octets) {
   return only_if(x.of.octets_up + x.of.octets_down > 0,
@@ -320,6 +328,39 @@ constexpr run_figure of_vehicles[]{
      motion_places,
      [](const auto& x) { return x.of.together().ride.comfort_cost_m2ps3; },
      {report_table::safety, 130, "comfort cost, m²/s³", 1}},
+    {"traffic.delay_s.mean",
+     second_places,
+     [](const auto& x) { return x.of.traffic().delay_s().mean(); },
+     {report_table::traffic, 10, "delay, mean, s", 1},
+     {console_block::traffic, 10, "delay", 1, "s"}},
+    {"traffic.delay_s.p95",
+     second_places,
+     [](const auto& x) { return x.of.traffic().delay_s(0.95); },
+     {report_table::traffic, 20, "delay, 95 %, s", 1},
+     {console_block::traffic, 20, "  p95", 1, "s"}},
+    {"traffic.delay_s.max",
+     second_places,
+     [](const auto& x) { return x.of.traffic().delay_s().max(); },
+     {report_table::traffic, 30, "delay, longest, s", 1},
+     {console_block::traffic, 30, "  max", 1, "s"}},
+    {"traffic.stops",
+     0,
+     [](const auto& x) { return x.of.traffic().stops(); },
+     {report_table::traffic, 40, "stops"},
+     {console_block::traffic, 40, "stops"}},
+    {"traffic.longest_stop_s",
+     second_places,
+     [](const auto& x) { return x.of.traffic().longest_stop_s(); },
+     {report_table::traffic, 50, "longest stop, s", 1},
+     {console_block::traffic, 50, "longest stop", 1, "s"}},
+    {"traffic.arrived",
+     0,
+     [](const auto& x) { return x.of.traffic().arrived(); },
+     {report_table::traffic, 60, "vehicles that arrived"}},
+    {"traffic.arrived_per_h",
+     second_places,
+     [](const auto& x) { return arrived_per_h(x); },
+     {report_table::traffic, 70, "vehicles that arrived, per hour", 0}},
     {"cycles.on_board", 0,
      [](const auto& x) { return x.of.cycles().on_board; }},
     {"cycles.offloaded", 0,

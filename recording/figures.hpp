@@ -38,7 +38,14 @@ struct service_in_run {
 };
 
 /// The tables of a report.
-enum class report_table : std::uint8_t { none, run, service, safety, air };
+enum class report_table : std::uint8_t {
+  none,
+  run,
+  service,
+  safety,
+  traffic,
+  air
+};
 
 /// What stands together on the console, with nothing between.
 enum class console_block : std::uint8_t {
@@ -50,6 +57,7 @@ enum class console_block : std::uint8_t {
   provided_time,
   safety,
   comfort,
+  traffic,
   energy
 };
 

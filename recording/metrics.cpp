@@ -9,6 +9,8 @@
 #include "recording/safety_line.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 
 namespace sofof::recording {
 
@@ -223,6 +225,36 @@ void metrics::add(const messages::drive_record& x) {
     sum->plans.add(x.plans);
     sum->ride.add(x.ride);
   }
+}
+
+void metrics::add(const messages::trip_record& x) {
+  vehicles_[x.station].trip = x.trip;
+  traffic_.add(x.trip);
+}
+
+void traffic_metrics::add(const world::trip_figures& x) {
+  arrived_ += x.has_arrived;
+  stops_ += x.stops;
+  longest_stop_s_ = std::max(longest_stop_s_, x.longest_stop_s);
+  delay_s_.add(x.delay_s());
+  delays_s_.push_back(x.delay_s());
+}
+
+std::optional<double> traffic_metrics::longest_stop_s() const {
+  if (delays_s_.empty())
+    return std::nullopt;
+  return longest_stop_s_;
+}
+
+std::optional<double> traffic_metrics::delay_s(double p) const {
+  assert(p > 0 && p <= 1);
+  if (delays_s_.empty())
+    return std::nullopt;
+  auto all = delays_s_;
+  const auto rank = std::ceil(p * static_cast<double>(all.size()));
+  const auto at = all.begin() + static_cast<std::ptrdiff_t>(rank) - 1;
+  std::ranges::nth_element(all, at);
+  return *at;
 }
 
 void metrics::add(const messages::air_record& x) {

@@ -131,6 +131,27 @@ struct drive_metrics {
   safety_metrics safety;
   world::plan_figures plans;
   world::ride_figures ride;
+  std::optional<world::trip_figures> trip; ///< Of one vehicle, at its end.
+};
+
+/// How vehicles got on, each from its start to its arrival or the end.
+class traffic_metrics {
+public:
+  void add(const world::trip_figures& x);
+
+  std::uint64_t arrived() const { return arrived_; }
+  std::uint64_t stops() const { return stops_; }
+  /// @returns nullopt where nobody drove.
+  std::optional<double> longest_stop_s() const;
+  const statistics& delay_s() const { return delay_s_; }
+  /// @returns the least delay that a share `p` of all does not exceed.
+  std::optional<double> delay_s(double p) const;
+
+private:
+  std::uint64_t arrived_ = 0, stops_ = 0;
+  double longest_stop_s_ = 0;
+  statistics delay_s_;
+  std::vector<double> delays_s_;
 };
 
 /// How far plans jumped when their source changed, all vehicles together.
@@ -202,6 +223,7 @@ public:
   cycle_figures cycles(station_id station) const {
     return work_.cycles(headline_, station);
   }
+  const traffic_metrics& traffic() const { return traffic_; }
   const switch_metrics& switches() const { return switches_; }
   const air_metrics& air() const { return air_; }
   const load_table& load() const { return load_; }
@@ -238,6 +260,7 @@ private:
   void add(const messages::safety_record& x);
   void add(const messages::collision_record& x);
   void add(const messages::drive_record& x);
+  void add(const messages::trip_record& x);
   void add(const messages::plan_switch_record& x);
   void add(const messages::air_record& x);
   template <class Other>
@@ -260,6 +283,7 @@ private:
   load_table recent_; // of the cells, what was disturbed lately
   drive_metrics together_;
   std::map<station_id, drive_metrics> vehicles_;
+  traffic_metrics traffic_;
   switch_metrics switches_;
   air_metrics air_;
   load_table load_;

@@ -92,6 +92,12 @@ void result_files::write(const messages::track_record& x) {
     tracks_->write({x, {"", start_}});
 }
 
+void result_files::write(const messages::claim_record& x) {
+  if (!claims_)
+    claims_.emplace(folder_ / "claims.csv", columns::of_claims);
+  claims_->write({x, {"", start_}});
+}
+
 void result_files::write(const messages::air_record& x) {
   if (pcap_)
     pcap_->write(x);
@@ -111,6 +117,8 @@ void result_files::flush() {
     tracks_->flush();
   if (margins_)
     margins_->flush();
+  if (claims_)
+    claims_->flush();
   events_.flush();
   if (pcap_)
     pcap_->flush();
@@ -126,6 +134,8 @@ void result_files::finish(const metrics& all, const run_info& run,
     tracks_->close();
   if (margins_)
     margins_->close();
+  if (claims_)
+    claims_->close();
   events_.close();
   if (pcap_)
     pcap_->close();

@@ -55,6 +55,7 @@ private:
   void write(const messages::cycle_record& x);
   void write(const messages::episode_record& x);
   void write(const messages::track_record& x);
+  void write(const messages::claim_record& x);
   void write(const messages::air_record& x);
   template <class Other>
   void write(const Other&) {}
@@ -74,6 +75,7 @@ private:
   std::optional<csv_file<cycle_row>> cycles_;
   std::optional<csv_file<track_row>> tracks_;
   std::optional<csv_file<margin_row>> margins_;
+  std::optional<csv_file<claim_row>> claims_; // once there is one
   csv_file<disturbed_row> disturbed_;
   output_file events_;
 };

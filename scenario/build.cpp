@@ -7,14 +7,16 @@
 #include "actors/runtime/recorder.hpp"
 #include "actors/runtime/supervisor.hpp"
 #include "actors/runtime/time.hpp"
-#include "actors/services/service_client.hpp"
+#include "actors/simulation/air.hpp"
+#include "actors/simulation/comfortable_roads.hpp"
 #include "actors/simulation/crash_injector.hpp"
 #include "actors/simulation/network_link.hpp"
 #include "actors/simulation/road.hpp"
+#include "actors/simulation/service_client.hpp"
 #include "actors/simulation/vehicle.hpp"
 #include "base/protocol.hpp"
 #include "channel/with_outage.hpp"
-#include "messages/v2x/decode_broadcast.hpp"
+#include "messages/broadcast/decode_broadcast.hpp"
 #include "scenario/channel_oracle.hpp"
 #include "scenario/placement.hpp"
 
@@ -23,6 +25,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <ranges>
 
 namespace sofof::scenario {
@@ -300,6 +303,9 @@ private:
                noise_of(s_, "sensors"), sensors_beside(s_, cells_, here_),
                obstacles(s_), world_.recorder, s_.traffic.grants_crossings()});
     name(watched_, world_.road, "the road");
+    world_.air =
+        actors::spawn_air(sys_, {s_.network.channel, noise_of(s_, "air"), 300});
+    name(watched_, world_.air, "the air");
   }
 
   void add_vehicle(const placed_vehicle& v,
@@ -312,7 +318,8 @@ private:
                  fleet.start_speed_mps,
                  {},
                  fresh_limit(s_),
-                 s_.record.tracks ? s_.record.tracks_period : duration{0}};
+                 s_.record.tracks ? s_.record.tracks_period : duration{0},
+                 roads_.of(v.way)};
     setup.appears_after = v.appears;
     if (const auto* planning = planning_service(s_))
       setup.plans = planning->plans();
@@ -320,13 +327,15 @@ private:
     setup.where = where_;
     if (fleet.connected) {
       setup.v2x = s_.v2x;
+      setup.air = world_.air;
       setup.antennas = connect_all(v.station);
     }
     for (const auto& a : setup.antennas)
       world_.links.push_back(a.link);
     setup.road = world_.road;
     setup.recorder = world_.recorder;
-    setup.spawn_requester = requester_maker(v, std::move(future));
+    setup.spawn_requester =
+        requester_maker(v, setup.car.road, std::move(future));
     world_.vehicles.push_back(actors::spawn_vehicle(sys_, std::move(setup)));
     name(watched_, world_.vehicles.back(),
          fmt::format("vehicle {}", v.station));
@@ -354,13 +363,16 @@ private:
   std::function<
       messages::onboard_requester_actor(const messages::vehicle_actor&)>
   requester_maker(
-      const placed_vehicle& v,
+      const placed_vehicle& v, const planners::route_profile_ptr& road,
       std::shared_ptr<const policies::channel_oracle> future) const {
     std::vector<actors::client_service> services;
     for (std::size_t k = 0; k < services_.size(); ++k)
       services.push_back(
-          {services_[k], [type = s_.services[k]](auto& sys, const auto& car) {
-             return type->spawn_client({sys, car}).actor;
+          {services_[k],
+           [type = s_.services[k], station = v.station, road,
+            recorder = world_.recorder](auto& sys, const auto& car) {
+             return type->spawn_client({sys, car, station, road, recorder})
+                 .actor;
            }});
     return [&sys = sys_, station = v.station, way = v.way, services,
             lodm = s_.policies.lodm, recorder = world_.recorder,
@@ -397,6 +409,7 @@ private:
       decode_;
   std::vector<offloading::service> services_; // as in the scenario
   std::vector<provider_cell> cells_;
+  actors::comfortable_roads roads_;
   names watched_;
   world_actors world_;
 };
@@ -426,6 +439,7 @@ void dismiss(const world_actors& actors, runtime& time) {
     time.run_until(time.now() + last_words); // they are under way
   end(actors.links, time);
   end(actors.connections, time);
+  end(std::vector{actors.air}, time);
   end(std::vector{actors.road}, time);
   end(std::vector{actors.recorder}, time);
 }

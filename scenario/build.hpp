@@ -51,6 +51,7 @@ struct provider_load {
 struct world_actors {
   messages::recorder_actor recorder;
   messages::road_actor road;
+  messages::air_actor air;
   std::vector<messages::provider_actor> providers;
   std::vector<messages::link_actor> links;
   std::vector<actors::provider_outbox> connections;

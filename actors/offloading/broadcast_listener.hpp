@@ -3,6 +3,7 @@
 
 #include "messages/protocol/motion.hpp"
 #include "messages/protocol/service.hpp"
+#include "messages/v2x/mcm/mcm_content.hpp"
 #include "messages/v2x/object_list.hpp"
 #include "offloading/service.hpp"
 #include "planners/plausibility/station_doubt.hpp"
@@ -23,6 +24,9 @@ public:
   /// A CPM has come, likewise.
   virtual void on_objects(const messages::object_list& told,
                           sender_id from) = 0;
+
+  /// An MCM has come that a vehicle tells everybody, likewise.
+  virtual void on_word(const messages::decoded_mcm&, sender_id) {}
 
   /// One of the provider's sensors at the roadside has looked at the road.
   virtual void on_detections(const messages::roadside_detections& view) = 0;

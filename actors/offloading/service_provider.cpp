@@ -47,6 +47,9 @@ struct provider_state {
     } else if (const auto* seen = std::get_if<messages::object_list>(&heard)) {
       const auto sender = sender_of(message, seen->from);
       tell([&](broadcast_listener& x) { x.on_objects(*seen, sender); });
+    } else if (const auto* word = std::get_if<messages::decoded_mcm>(&heard)) {
+      const auto sender = sender_of(message, word->from);
+      tell([&](broadcast_listener& x) { x.on_word(*word, sender); });
     }
   }
 

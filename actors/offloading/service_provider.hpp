@@ -4,8 +4,8 @@
 #include "channel/channel_draws.hpp"
 #include "channel/load_meter.hpp"
 #include "channel/provider_compute.hpp"
+#include "messages/broadcast/decode_broadcast.hpp"
 #include "messages/type_ids.hpp"
-#include "messages/v2x/decode_broadcast.hpp"
 #include "offloading/service.hpp"
 #include "policies/api/context.hpp"
 

@@ -1,8 +1,8 @@
 // Cabin climate as a service: a thermal model of the cabin is its client, the
 // choice of heating or cooling power its function.
 #include "actors/services/climate/cabin.hpp"
-#include "actors/services/service_client.hpp"
 #include "actors/services/service_type.hpp"
+#include "actors/simulation/service_client.hpp"
 #include "planners/judges/climate_judge.hpp"
 
 #include <chrono>

@@ -28,7 +28,7 @@ struct service_world {
   std::vector<world::viewpoint> roadside; ///< Sensors of the provider there.
 };
 
-// actors/services/service_client.hpp has both.
+// actors/simulation/service_client.hpp has both.
 struct client_place;
 struct service_client;
 

@@ -2,8 +2,8 @@
 // which tell nobody anything. For studies of cells, uplinks and servers, where
 // a function that is not there yet, say on camera images, is to be weighed.
 #include "actors/runtime/time.hpp"
-#include "actors/services/service_client.hpp"
 #include "actors/services/service_type.hpp"
+#include "actors/simulation/service_client.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>

@@ -1,8 +1,8 @@
 // Trajectory planning as a service: the vehicle is its client; the planner at
 // a provider may plan farther and more thoroughly than the vehicle's own.
 #include "actors/services/planning/planning_sides.hpp"
-#include "actors/services/service_client.hpp"
 #include "actors/services/service_type.hpp"
+#include "actors/simulation/service_client.hpp"
 
 #include <chrono>
 #include <memory>

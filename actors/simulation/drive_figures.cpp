@@ -1,6 +1,8 @@
 // Counting plans, and noticing where they come from.
 #include "actors/simulation/drive_figures.hpp"
 
+#include "base/protocol.hpp"
+
 #include <utility>
 
 namespace sofof::actors {
@@ -45,6 +47,11 @@ void drive_figures::stop_safely() {
   source_.reset();
   emergency_ = true;
   ++plans_.safe_stops;
+}
+
+void drive_figures::on_step(const world::vehicle_state& x) {
+  ride_.add(x, emergency_);
+  stood_.add(x.speed_mps, to_seconds(protocol::control_period));
 }
 
 messages::drive_record drive_figures::flush() {

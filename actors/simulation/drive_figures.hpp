@@ -4,6 +4,7 @@
 #include "messages/protocol/record.hpp"
 #include "planners/trajectory/trajectory_planner.hpp"
 #include "world/vehicle/ride_comfort.hpp"
+#include "world/vehicle/trip.hpp"
 
 #include <optional>
 
@@ -35,10 +36,12 @@ public:
   void stop_safely();
 
   /// @param x  The car after a step of protocol::control_period.
-  void on_step(const world::vehicle_state& x) { ride_.add(x, emergency_); }
+  void on_step(const world::vehicle_state& x);
 
   /// @returns the figures since the last call.
   messages::drive_record flush();
+
+  const world::stop_meter& stops() const { return stood_; }
 
 private:
   station_id station_;
@@ -48,6 +51,7 @@ private:
   bool emergency_ = false; // so is the plan in use
   world::plan_figures plans_;
   world::ride_comfort ride_;
+  world::stop_meter stood_;
 };
 
 } // namespace sofof::actors

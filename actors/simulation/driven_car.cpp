@@ -3,8 +3,10 @@
 
 #include "base/protocol.hpp"
 #include "planners/scene/lane_motion.hpp"
+#include "planners/speed/lone_drive.hpp"
 #include "planners/trajectory/keep_speed.hpp"
 #include "planners/trajectory/safe_stop.hpp"
+#include "world/traffic/on_road.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -26,8 +28,9 @@ constexpr double followed_m = 1.0;
 constexpr double followed_mps = 1.5;
 /// A car is sought on its route only so far from where it should be.
 constexpr double window_m = 2;
-/// A car that stands so near the end of its route has arrived.
-constexpr double at_the_end_m = 1.0;
+/// A car that is so near the end of its route has arrived. It leaves before it
+/// stops there, or those behind it would queue up.
+constexpr double at_the_end_m = 10.0;
 /// Safety and comfort are summed up so often.
 constexpr duration figures_period = 1s;
 
@@ -84,7 +87,7 @@ time_point driven_car::next_report() const {
 }
 
 bool driven_car::is_at_the_end() const {
-  return !setup_.way->closed() && car_.speed_mps <= 0
+  return !setup_.way->closed()
          && s_m_ + setup_.car.front_m + at_the_end_m >= setup_.way->length_m();
 }
 
@@ -150,6 +153,10 @@ planners::planning_input driven_car::measured() const {
 
 // -- what others see of it --------------------------------------------------
 
+own_drive driven_car::drive() const {
+  return {ego().own, s_m_, plan_};
+}
+
 messages::ego_state driven_car::ego() const {
   return {{setup_.station, at_, car_.at, car_.heading_rad, car_.speed_mps,
            car_.accel_mps2, std::tan(car_.steer_rad) / setup_.car.wheelbase_m},
@@ -161,14 +168,7 @@ messages::track_record driven_car::track(bool remote) const {
 }
 
 void driven_car::count_off_road() {
-  const auto front = setup_.way->path().project(
-      car_.at
-          + setup_.car.wheelbase_m
-                * point{std::cos(car_.heading_rad), std::sin(car_.heading_rad)},
-      s_m_ + setup_.car.wheelbase_m, window_m);
-  const auto outermost_m = std::max(std::abs(lateral_m_), std::abs(front.d_m))
-                           + setup_.car.width_m / 2;
-  if (outermost_m > setup_.way->half_width_m(s_m_))
+  if (!world::is_on_road(*setup_.way, s_m_, car_, setup_.car))
     safety_.off_road += protocol::sensor_period;
 }
 
@@ -178,6 +178,17 @@ void driven_car::count_safety() {
   safety_.max_plan_age = std::max(safety_.max_plan_age, age);
   if (age > setup_.fresh_limit)
     safety_.without_fresh_plan += protocol::control_period;
+}
+
+messages::trip_record driven_car::trip() const {
+  assert(has_appeared());
+  const auto& stops = figures_->stops();
+  return {setup_.station,
+          {to_seconds(static_cast<duration::rep>(steps_)
+                      * protocol::control_period),
+           planners::lone_drive_s(*setup_.road, {}, setup_.start_s_m,
+                                  setup_.start_speed_mps, s_m_),
+           stops.count(), stops.longest_s(), is_at_the_end()}};
 }
 
 messages::safety_record driven_car::flush_safety() {

@@ -5,6 +5,7 @@
 #include "actors/simulation/plan_client.hpp"
 #include "messages/protocol/motion.hpp"
 #include "messages/protocol/record.hpp"
+#include "planners/speed/route_profile.hpp"
 #include "world/roads/road_map.hpp"
 #include "world/vehicle/vehicle.hpp"
 
@@ -22,9 +23,23 @@ struct car_setup {
   double start_s_m = 0;
   double start_speed_mps = 0;
   world::vehicle_params car;
-  duration fresh_limit{};  ///< Plans older than this are not fresh.
-  duration track_period{}; ///< Between two track records; zero: none.
+  duration fresh_limit{};           ///< Plans older than this are not fresh.
+  duration track_period{};          ///< Between two track records; zero: none.
+  planners::route_profile_ptr road; ///< Of `way`, as comfort has it by default.
 };
+
+/// Where a car is, and how it is going to drive.
+struct own_drive {
+  messages::cam own;
+  double s_m = 0; ///< Rear axle on its route, laps included.
+  std::shared_ptr<const world::trajectory> plan; ///< In use; not null.
+};
+
+/// The plan is left out: it stays in the vehicle.
+void visit_fields(auto& v, own_drive& x) {
+  v("own", x.own);
+  v("s_m", x.s_m);
+}
 
 /// Steps the car at protocol::control_period along the plan in use. It begins
 /// with a plan to keep its speed, and when a plan is about to end without a
@@ -71,6 +86,7 @@ public:
   /// @param remote  Whether its plans come from a provider.
   messages::track_record track(bool remote) const;
   point position() const { return car_.at; }
+  own_drive drive() const;
 
   /// A step of protocol::sensor_period ends: counts it if the car is off its
   /// road.
@@ -81,6 +97,9 @@ public:
     assert(has_appeared());
     return figures_->flush();
   }
+
+  /// @returns its trip so far.
+  messages::trip_record trip() const;
 
 private:
   planners::planning_input measured() const;
@@ -102,3 +121,7 @@ private:
 };
 
 } // namespace sofof::actors
+
+template <>
+inline constexpr std::string_view
+    sofof::messages::payload_name<sofof::actors::own_drive> = "own_drive";

@@ -27,11 +27,13 @@ public:
   /// @param from  Where the plan shall begin.
   /// @param seen  By the vehicle, and granted to it.
   /// @param own   Its motion as its CAMs tell it.
+  /// @param crossing  What was agreed at one, of who agrees for it; or nothing.
   /// @returns the input of the service.
   virtual messages::payload ask(const world::route& way,
                                 const planners::planning_input& from,
                                 const world::perception& seen,
-                                const messages::cam& own) const = 0;
+                                const messages::cam& own,
+                                const messages::payload& crossing) const = 0;
 
   /// @returns nullopt for what is no plan.
   virtual std::optional<received_plan>

@@ -2,7 +2,6 @@
 #include "actors/simulation/vehicle.hpp"
 
 #include "actors/runtime/time.hpp"
-#include "actors/simulation/v2x_broadcast.hpp"
 #include "actors/simulation/vehicle_links.hpp"
 #include "base/protocol.hpp"
 
@@ -27,8 +26,8 @@ struct vehicle_actor_state {
   std::optional<driven_car> car;
   messages::onboard_requester_actor requester;
   messages::requester_manager_actor planning; // gets the inputs
-  std::optional<v2x_broadcast> broadcast;
-  world::perception newest; // of what it perceives
+  messages::payload agreed;                   // at a crossing
+  world::perception newest;                   // of what it perceives
   bool remote = false;
   bool has_arrived = false;
   std::optional<caf::error> leaving; // why
@@ -54,8 +53,6 @@ struct vehicle_actor_state {
     if (setup.appears_after > 0ms)
       links->log_event(messages::event_type::appeared);
     car->appear(now(self));
-    if (setup.v2x)
-      broadcast.emplace(*setup.v2x, setup.car.car, setup.sensor, setup.where);
     requester = setup.spawn_requester(messages::vehicle_actor{self});
     self->monitor(requester); // the car outlives it, and stops safely
     links->report(*car);
@@ -67,8 +64,8 @@ struct vehicle_actor_state {
   // The requester goes first: it has episodes to close.
   void on_exit(const caf::error& reason) {
     catch_up();
-    if (car->has_appeared())
-      links->record_figures(*car);
+    if (car->has_appeared() && !has_arrived)
+      links->record_trip(*car);
     leaving = reason;
     if (requester)
       self->send_exit(requester, reason);
@@ -80,7 +77,7 @@ struct vehicle_actor_state {
   void arrive() {
     has_arrived = true;
     links->log_event(messages::event_type::arrived);
-    links->record_figures(*car);
+    links->record_trip(*car);
     links->leave_road();
     if (requester)
       self->send_exit(requester, caf::exit_reason::user_shutdown);
@@ -88,6 +85,7 @@ struct vehicle_actor_state {
 
   void on_requester_down() {
     requester = nullptr;
+    links->tell({});
     if (leaving)
       self->quit(*leaving);
     else if (!has_arrived)
@@ -136,7 +134,7 @@ struct vehicle_actor_state {
       return;
     const auto from = car->plan_from(now(self));
     auto question =
-        setup.plans->ask(*setup.car.way, from, newest, car->ego().own);
+        setup.plans->ask(*setup.car.way, from, newest, car->ego().own, agreed);
     self->send(planning,
                messages::service_input{{}, from.at, std::move(question)});
   }
@@ -144,10 +142,8 @@ struct vehicle_actor_state {
   void on_result(const messages::service_result& result) {
     catch_up();
     const auto next = setup.plans ? setup.plans->read(result) : std::nullopt;
-    if (!next)
-      return;
-    if (const auto jump = car->use(*next, result, now(self)))
-      links->record(*jump);
+    if (next)
+      links->record(car->use(*next, result, now(self)));
   }
 
   void on_source(const messages::source_change& change) {
@@ -160,11 +156,7 @@ struct vehicle_actor_state {
       return;
     const auto own = car->ego();
     self->send(requester, own);
-    if (!broadcast)
-      return;
-    links->broadcast(broadcast->awareness(own.own), car->position(), requester);
-    links->broadcast(broadcast->perceived(own.own, newest), car->position(),
-                     requester);
+    links->broadcast(own.own, newest, car->position(), requester);
   }
 };
 
@@ -183,6 +175,14 @@ vehicle(vehicle_impl::stateful_pointer<vehicle_actor_state> self,
       [self](const messages::source_change& x) { self->state.on_source(x); },
       [self](const messages::requester_manager_actor& manager) {
         self->state.planning = manager;
+      },
+      [self](const messages::crossing_driver_actor& agent) {
+        self->state.links->tell(agent);
+      },
+      [self](const messages::payload& agreed) { self->state.agreed = agreed; },
+      [self](const messages::its_pdu& word) {
+        auto& x = self->state;
+        x.links->say(word, x.car->position(), x.requester);
       },
       [self](world::perception& others) { self->state.on_perception(others); },
       [self](messages::begin_atom) { self->state.on_place(); },

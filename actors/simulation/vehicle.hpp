@@ -36,6 +36,7 @@ struct vehicle_setup {
   std::optional<messages::v2x_options> v2x;
   messages::georeference_ptr where; ///< Where the map is on Earth.
   std::vector<antenna> antennas;
+  messages::air_actor air; ///< Null: other vehicles do not hear it.
   messages::road_actor road;
   messages::recorder_actor recorder;
   /// Makes the vehicle's requester.

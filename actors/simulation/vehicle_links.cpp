@@ -11,6 +11,13 @@
 
 namespace sofof::actors {
 
+vehicle_links::vehicle_links(vehicle_impl::pointer self,
+                             const vehicle_setup& setup)
+    : self_{self}, setup_{setup} {
+  if (setup.v2x)
+    due_.emplace(*setup.v2x, setup.car.car, setup.sensor, setup.where);
+}
+
 void vehicle_links::ask_for_place(const driven_car& car) {
   self_->send(setup_.road, messages::begin_atom_v, car.report(),
               messages::vehicle_actor{self_});
@@ -18,6 +25,12 @@ void vehicle_links::ask_for_place(const driven_car& car) {
 
 void vehicle_links::report(const driven_car& car) {
   self_->send(setup_.road, car.report(), messages::vehicle_actor{self_});
+  if (!agent_)
+    return;
+  self_->send(agent_, messages::payload::of(car.drive()));
+  if (setup_.air)
+    self_->send(setup_.air, setup_.car.station.value(), car.position(),
+                caf::actor_cast<messages::air_listener_actor>(agent_));
 }
 
 void vehicle_links::leave_road() {
@@ -25,14 +38,32 @@ void vehicle_links::leave_road() {
 }
 
 void vehicle_links::broadcast(
-    const std::optional<messages::its_pdu>& message, point from,
+    const messages::cam& own, const world::perception& seen, point from,
     const messages::onboard_requester_actor& requester) {
+  if (!due_)
+    return;
+  send(due_->awareness(own), from, requester);
+  send(due_->perceived(own, seen), from, requester);
+}
+
+void vehicle_links::send(const std::optional<messages::its_pdu>& message,
+                         point from,
+                         const messages::onboard_requester_actor& requester) {
   if (!message || message->octets.empty())
     return;
   record_on_air(self_, setup_.recorder, *message);
   for (const auto& a : setup_.antennas)
     if (distance_m(from, a.position) <= a.range_m)
       self_->send(a.link, *message, messages::requester_actor{requester});
+}
+
+void vehicle_links::say(const messages::its_pdu& word, point from,
+                        const messages::onboard_requester_actor& requester) {
+  if (!requester)
+    return;
+  send(word, from, requester);
+  if (setup_.air)
+    self_->send(setup_.air, setup_.car.station.value(), from, word);
 }
 
 void vehicle_links::log_event(messages::event_type what) {
@@ -46,13 +77,20 @@ void vehicle_links::record(const driven_car& car, bool remote) {
   send_record(self_, setup_.recorder, car.track(remote));
 }
 
-void vehicle_links::record(const messages::plan_switch_record& jump) {
-  send_record(self_, setup_.recorder, jump);
+void vehicle_links::record(
+    const std::optional<messages::plan_switch_record>& jump) {
+  if (jump)
+    send_record(self_, setup_.recorder, *jump);
 }
 
 void vehicle_links::record_figures(driven_car& car) {
   send_record(self_, setup_.recorder, car.flush_safety());
   send_record(self_, setup_.recorder, car.flush_figures());
+}
+
+void vehicle_links::record_trip(driven_car& car) {
+  record_figures(car);
+  send_record(self_, setup_.recorder, car.trip());
 }
 
 } // namespace sofof::actors

@@ -1,9 +1,11 @@
 // What a vehicle sends and to whom: road, recorder, and everybody near.
 #pragma once
 
+#include "actors/simulation/v2x_broadcast.hpp"
 #include "actors/simulation/vehicle.hpp"
 
 #include <optional>
+#include <utility>
 
 namespace sofof::actors {
 
@@ -15,29 +17,47 @@ using vehicle_impl =
 class vehicle_links {
 public:
   /// @param self, setup  Outlive the links.
-  vehicle_links(vehicle_impl::pointer self, const vehicle_setup& setup)
-      : self_{self}, setup_{setup} {}
+  vehicle_links(vehicle_impl::pointer self, const vehicle_setup& setup);
 
   /// The road is asked for the vehicle's place.
   void ask_for_place(const driven_car& car);
-  /// The road is told where the vehicle is.
+  /// Road and agent are told where the vehicle is.
   void report(const driven_car& car);
   /// The road has one vehicle less.
   void leave_road();
 
-  /// To all providers that are near enough; nothing if there is no message.
+  /// Tells all providers that are near enough of the vehicle and of what it
+  /// saw last, as far as that is due.
   /// @param requester  Who gets what they answer.
-  void broadcast(const std::optional<messages::its_pdu>& message, point from,
+  void broadcast(const messages::cam& own, const world::perception& seen,
+                 point from,
                  const messages::onboard_requester_actor& requester);
+
+  /// Tells providers and vehicles near.
+  void say(const messages::its_pdu& word, point from,
+           const messages::onboard_requester_actor& requester);
+
+  /// @param agent  Agrees with others for the vehicle: told from now on what
+  ///               the road is told, and by it the vehicle hears. Null: nobody.
+  void tell(messages::crossing_driver_actor agent) {
+    agent_ = std::move(agent);
+  }
 
   void log_event(messages::event_type what);
   void record(const driven_car& car, bool remote);
-  void record(const messages::plan_switch_record& jump);
+  void record(const std::optional<messages::plan_switch_record>& jump);
   void record_figures(driven_car& car);
+  /// Its drive ends: the rest of its figures, and its trip.
+  void record_trip(driven_car& car);
 
 private:
+  void send(const std::optional<messages::its_pdu>& message, point from,
+            const messages::onboard_requester_actor& requester);
+
   vehicle_impl::pointer self_;
   const vehicle_setup& setup_;
+  std::optional<v2x_broadcast> due_; // none if it is not connected
+  messages::crossing_driver_actor agent_;
 };
 
 } // namespace sofof::actors

@@ -163,9 +163,9 @@ value_of in_percent(value_of share) {
   return share ? value_of{percent * *share} : share;
 }
 
-value_of per_hour(const summary_figures& run, double count) {
+value_of per_hour(const summary_figures& run, value_of count) {
   const auto hours = run.driven_hours();
-  return hours > 0 ? value_of{count / hours} : std::nullopt;
+  return count && hours > 0 ? value_of{*count / hours} : std::nullopt;
 }
 
 /// @returns a part of the energy, per km.
@@ -194,6 +194,22 @@ constexpr criterion all_criteria[]{
     {"collisions", "collisions", "", 2, better::less,
      [](const summary_figures& run, const baseline&) {
        return value_of{run.must("safety.collisions")};
+     }},
+    {"hard_brakes_per_h", "hard brakes, 1/h", "", 2, better::less,
+     [](const summary_figures& run, const baseline&) {
+       return per_hour(run, run.may("driving.hard_brakes"));
+     }},
+    {"delay_s", "delay, mean, s", "", 2, better::less,
+     [](const summary_figures& run, const baseline&) {
+       return run.may("traffic.delay_s.mean");
+     }},
+    {"delay_p95_s", "delay, 95 %, s", "", 2, better::less,
+     [](const summary_figures& run, const baseline&) {
+       return run.may("traffic.delay_s.p95");
+     }},
+    {"stops_per_h", "stops, 1/h", "", 2, better::less,
+     [](const summary_figures& run, const baseline&) {
+       return per_hour(run, run.may("traffic.stops"));
      }},
     {"fallbacks_per_h", "fallbacks, 1/h", "fallb/h", 2, better::less,
      [](const summary_figures& run, const baseline&) {

@@ -177,6 +177,7 @@ std::vector<table> key_figures(std::span<const recorded_run> runs) {
     std::move(shown).finish(all);
   }
   add_safety(all, runs);
+  add_table(all, runs, "Traffic", recording::report_table::traffic);
   add_table(all, runs, "On the air", recording::report_table::air);
   return all;
 }

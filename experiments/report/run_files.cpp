@@ -228,6 +228,22 @@ std::vector<octets_line> read_octets(const fs::path& folder) {
   return all;
 }
 
+std::vector<claim_line> read_claims(const fs::path& folder) {
+  static constexpr columns names{"station",  "lane",     "claimed_s", "bound_s",
+                                 "enters_s", "leaves_s", "kept"};
+  enum { station, lane, claimed, bound, enters, leaves, kept };
+  const auto file = folder / "claims.csv";
+  std::vector<claim_line> all;
+  if (!fs::exists(file))
+    return all;
+  csv_reader row{file, names, ending_of(folder)};
+  while (row.next())
+    all.push_back({row.whole(station), row.text(lane), row.number(claimed),
+                   row.number_if_any(bound), row.number(enters),
+                   row.number(leaves), row.whole(kept) != 0});
+  return all;
+}
+
 std::optional<recording::load_table> read_disturbed(const fs::path& folder) {
   static constexpr columns names{"t_s",  "provider", "direction", "station",
                                  "what", "lost",     "outage",    "stall"};

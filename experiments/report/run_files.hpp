@@ -94,6 +94,16 @@ struct track_line {
   bool remote = false;
 };
 
+/// Of claims.csv.
+struct claim_line {
+  std::uint64_t station = 0;
+  std::string lane; ///< By which it came.
+  double claimed_s = 0;
+  std::optional<double> bound_s; ///< None: it was given up before.
+  double enters_s = 0, leaves_s = 0;
+  bool was_kept = false;
+};
+
 /// Of events.jsonl.
 struct event_line {
   double t_s = 0;
@@ -134,6 +144,7 @@ read_tracks(const std::filesystem::path& folder);
 /// @returns no lines when the run wrote no such file.
 std::vector<load_line> read_load(const std::filesystem::path& folder);
 std::vector<octets_line> read_octets(const std::filesystem::path& folder);
+std::vector<claim_line> read_claims(const std::filesystem::path& folder);
 
 /// @returns what disturbed.csv holds, without any other load; nothing when the
 /// run wrote no such file.

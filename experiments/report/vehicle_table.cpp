@@ -34,6 +34,9 @@ constexpr std::array vehicle_columns{
     column{"max_lateral_accel_mps2", "largest lateral acceleration, m/s²", 2},
     column{"hard_brakes", "hard brakes", 0},
     column{"comfort_cost_m2ps3", "comfort cost, m²/s³", 1},
+    column{"delay_s", "delay, s", 1},
+    column{"stops", "stops", 0},
+    column{"longest_stop_s", "longest stop, s", 1},
 };
 
 } // namespace

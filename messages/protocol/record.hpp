@@ -7,6 +7,7 @@
 #include "messages/protocol/service.hpp"
 #include "world/vehicle/plan_comfort.hpp"
 #include "world/vehicle/ride_comfort.hpp"
+#include "world/vehicle/trip.hpp"
 
 #include <optional>
 #include <string>
@@ -122,6 +123,23 @@ struct drive_record {
   world::ride_figures ride;
 };
 
+/// A vehicle's trip has ended: it has arrived, or the run is over.
+struct trip_record {
+  station_id station = 0;
+  world::trip_figures trip;
+};
+
+/// A vehicle's claim of a way through a crossing is over.
+struct claim_record {
+  station_id station = 0;
+  std::string lane{}; ///< By which it came.
+  time_point claimed; ///< When it claimed first.
+  std::optional<time_point>
+      bound;                 ///< When nobody else could claim it any more.
+  time_point enters, leaves; ///< The crossing, as claimed.
+  bool was_kept = false;     ///< Else it was given up before.
+};
+
 /// A vehicle has taken its first plan from another source into use.
 struct plan_switch_record {
   time_point at;
@@ -147,7 +165,8 @@ struct collision_record {
 using record =
     std::variant<event_record, decision_record, cycle_record, work_record,
                  episode_record, track_record, safety_record, collision_record,
-                 drive_record, plan_switch_record, air_record>;
+                 drive_record, trip_record, claim_record, plan_switch_record,
+                 air_record>;
 
 /// Gets the records of a run; implemented by whoever keeps them.
 class record_sink {

@@ -1,7 +1,7 @@
 // Tests of cabin climate as a service: the cabin asks, the function answers,
 // the cabin becomes comfortable.
-#include "actors/services/service_client.hpp"
 #include "actors/services/service_type.hpp"
+#include "actors/simulation/service_client.hpp"
 #include "messages/protocol/bytes.hpp"
 #include "tests/support/virtual_world.hpp"
 

@@ -58,7 +58,15 @@ struct driving_world : virtual_world {
 
   messages::vehicle_actor spawn() {
     actors::vehicle_setup setup;
-    setup.car = {station, way, 100, start_speed_mps, {}, 200ms, 100ms};
+    setup.car = {station,
+                 way,
+                 100,
+                 start_speed_mps,
+                 {},
+                 200ms,
+                 100ms,
+                 std::make_shared<const planners::route_profile>(
+                     way, planners::comfort_limits{})};
     setup.plans = actors::make_plan_client();
     setup.appears_after = appears_after;
     setup.v2x = v2x;

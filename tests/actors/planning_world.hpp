@@ -5,7 +5,7 @@
 #include "actors/offloading/broadcast_listener.hpp"
 #include "actors/services/planning/plan_request.hpp"
 #include "actors/services/service_type.hpp"
-#include "messages/v2x/decode_broadcast.hpp"
+#include "messages/broadcast/decode_broadcast.hpp"
 #include "tests/support/on_air.hpp"
 #include "tests/support/toy_streets.hpp"
 

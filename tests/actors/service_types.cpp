@@ -1,7 +1,7 @@
 // Tests of the kinds of services: names, options, functions.
 #include "actors/services/planning/plan_request.hpp"
-#include "actors/services/service_client.hpp"
 #include "actors/services/service_type.hpp"
+#include "actors/simulation/service_client.hpp"
 #include "messages/v2x/mcm/mcm_content.hpp"
 #include "tests/support/echo_service.hpp"
 #include "tests/support/on_air.hpp"

@@ -393,13 +393,39 @@ TEST_CASE_FIXTURE(driving_world, "at the end of its route a vehicle leaves the "
   drive(120s); // 900 m at 10 m/s
   REQUIRE(road->count<station_id::rep>() == 1);
   CHECK(road->all<station_id::rep>().front() == station);
-  CHECK(last_report().s_m > 990);
+  CHECK(last_report().s_m > 980);
   CHECK(is_gone(requester.handle));
   std::vector<event_type> events;
   for (const auto& e : recorder->all<event_record>())
     events.push_back(e.what);
   CHECK(events == std::vector{event_type::arrived});
   CHECK(!is_gone(car)); // it waits for the end of the run
+}
+
+TEST_CASE_FIXTURE(driving_world, "a trip is recorded once, when the vehicle "
+                                 "arrives") {
+  drive(120s);
+  caf::anon_send_exit(car, caf::exit_reason::user_shutdown);
+  settle();
+  REQUIRE(recorder->count<trip_record>() == 1);
+  const auto [who, trip] = recorder->all<trip_record>().front();
+  CHECK(who == station);
+  CHECK(trip.has_arrived);
+  CHECK(trip.driven_s == doctest::Approx(to_seconds(total().driven)));
+  CHECK(std::abs(trip.delay_s()) < 3);
+  CHECK(trip.stops == 0); // the end is none
+}
+
+TEST_CASE_FIXTURE(driving_world, "a trip that the end of the run cuts off is "
+                                 "recorded as far as it came") {
+  drive(20s);
+  caf::anon_send_exit(car, caf::exit_reason::user_shutdown);
+  settle();
+  REQUIRE(recorder->count<trip_record>() == 1);
+  const auto trip = recorder->all<trip_record>().front().trip;
+  CHECK(!trip.has_arrived);
+  CHECK(trip.driven_s == doctest::Approx(20).epsilon(0.01));
+  CHECK(trip.stops == 0);
 }
 
 TEST_CASE_FIXTURE(late_world, "before its time a vehicle is nowhere; then it "

@@ -227,6 +227,9 @@ TEST_CASE("every figure of a run is of a criterion, and each has one name") {
   for (const auto* name :
        {"saved_share", "per_km_j", "j", "local_j", "offloading_j", "server_j"})
     run.figures["energy."s + name] = 0.5;
+  for (const auto* name : {"driving.hard_brakes", "traffic.stops",
+                           "traffic.delay_s.mean", "traffic.delay_s.p95"})
+    run.figures[name] = 1;
   const auto all = criteria();
   for (const auto& [name, x] : judge(run, usual()).values) {
     CAPTURE(name);

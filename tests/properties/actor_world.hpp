@@ -61,6 +61,9 @@ drive(moving_client::stateful_pointer<moving_client_state> self,
       [self](const messages::requester_manager_actor& manager) {
         self->state.managers.push_back(manager);
       },
+      [](const messages::crossing_driver_actor&) {},
+      [](const messages::payload&) {},
+      [](const messages::its_pdu&) {},
       [](const world::perception&) {},
       [](messages::begin_atom) {},
       [self, links](messages::tick_atom) {

@@ -285,6 +285,30 @@ TEST_CASE("a vehicle's figures are those of all its records") {
   CHECK(x.ride.hard_brakes == 3);
 }
 
+TEST_CASE("where nobody's trip has ended there is no delay") {
+  const metrics m{run()};
+  CHECK(!m.traffic().delay_s().mean());
+  CHECK(!m.traffic().delay_s(0.95));
+  CHECK(!m.traffic().longest_stop_s());
+  CHECK(m.traffic().arrived() == 0);
+}
+
+TEST_CASE("of twenty delays nineteen are no longer than the 95 % one") {
+  metrics m{run()};
+  for (auto k = 20; k > 0; --k)
+    m.on_record(trip_record{static_cast<std::uint32_t>(k),
+                            {100. + k, 100, 1, k / 2., k % 2 == 0}});
+  const auto& x = m.traffic();
+  CHECK(x.delay_s(0.95) == 19);
+  CHECK(x.delay_s(1) == 20);
+  CHECK(x.delay_s(0.01) == 1);
+  CHECK(x.delay_s().mean() == 10.5);
+  CHECK(x.longest_stop_s() == 10);
+  CHECK(x.stops() == 20);
+  CHECK(x.arrived() == 10);
+  CHECK(m.vehicles().at(7).trip->delay_s() == 7);
+}
+
 TEST_CASE("cycles at the top are those of the headline service") {
   metrics m{run()};
   m.on_record(result(running(101, 1, "environment"), 1, 5s, 10ms, {}));

@@ -107,6 +107,27 @@ TEST_CASE("margins are written when wanted, the least ones in the summary") {
   CHECK(margin["standing_s"] == 1.2);
 }
 
+TEST_CASE(
+    "claims of crossings are lines of claims.csv, which is absent without "
+    "any") {
+  const scratch dir;
+  {
+    results r{dir.path(), run()};
+    r.on_record(
+        claim_record{101, "in_e", at(5s), at(5200ms), at(9s), at(12s), true});
+    r.on_record(
+        claim_record{102, "in_n", at(6s), std::nullopt, at(10s), at(13s)});
+    r.finish(at(100s), 2, false);
+  }
+  CHECK(content_of(dir / "claims.csv")
+        == "station,lane,claimed_s,bound_s,enters_s,leaves_s,kept\n"
+           "101,in_e,5.000000000,5.200000000,9.000000000,12.000000000,1\n"
+           "102,in_n,6.000000000,,10.000000000,13.000000000,0\n");
+  results later{dir.path(), run()};
+  later.finish(at(100s), 2, false);
+  CHECK_FALSE(fs::exists(dir / "claims.csv"));
+}
+
 TEST_CASE("disturbed.csv has a line for each moment and vehicle that was "
           "disturbed, while the run goes on") {
   const scratch dir;
@@ -179,6 +200,13 @@ TEST_CASE("the summary says what happened") {
   CHECK(s["energy"]["per_km_j"] == doctest::Approx(1100.125 / 1.7005));
   CHECK(s["driving"]["hard_brakes"] == 2);
   CHECK(s["driving"]["comfort_cost_m2ps3"] == 100.5);
+  CHECK(s["traffic"]["delay_s"]["mean"] == 5.375);
+  CHECK(s["traffic"]["delay_s"]["p95"] == 10);
+  CHECK(s["traffic"]["delay_s"]["max"] == 10);
+  CHECK(s["traffic"]["stops"] == 2);
+  CHECK(s["traffic"]["longest_stop_s"] == 12.5);
+  CHECK(s["traffic"]["arrived"] == 1);
+  CHECK(s["traffic"]["arrived_per_h"] == 36);
   CHECK(s["switch"]["count"] == 2);
   CHECK(s["switch"]["mean_d_m"] == 0.5);
   CHECK(s["switch"]["max_d_m"] == 0.75);
@@ -284,17 +312,18 @@ TEST_CASE("each vehicle is a line in vehicles.csv, by station") {
            "collisions,max_plan_age_ms,plans,emergency_plans,kept_plans,"
            "stop_plans,imperfect_plans,safe_stops,min_accel_mps2,max_jerk_mps3,"
            "max_lateral_accel_mps2,hard_brakes,"
-           "comfort_cost_m2ps3,on_board_cycles,offloaded_cycles,energy_j,"
+           "comfort_cost_m2ps3,delay_s,stops,longest_stop_s,arrived,"
+           "on_board_cycles,offloaded_cycles,energy_j,"
            "all_on_board_j");
   CHECK(all[1].starts_with("9,"));
   CHECK(all[2]
         == "101,100.000000000,900.000,0.000000000,0.000000000,1,150.000000,"
            "2000,3,4,2,6,1,-4.000000,1.500000,1.750000,2,80.000000,"
-           "1600,401,850.125000,1000.500000");
+           "10.000,2,12.500,0,1600,401,850.125000,1000.500000");
   CHECK(all[3]
         == "102,100.000000000,800.500,0.000000000,0.000000000,0,180.000000,"
            "1000,0,1,0,1,0,-2.500000,2.000000,1.000000,0,20.500000,"
-           "1000,0,250.000000,250.000000");
+           "0.750,0,0.000,1,1000,0,250.000000,250.000000");
 }
 
 TEST_CASE("a switch of plans is an event with its jumps") {

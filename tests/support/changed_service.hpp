@@ -2,8 +2,8 @@
 #pragma once
 
 #include "actors/offloading/broadcast_listener.hpp"
-#include "actors/services/service_client.hpp"
 #include "actors/services/service_type.hpp"
+#include "actors/simulation/service_client.hpp"
 
 #include <functional>
 #include <memory>

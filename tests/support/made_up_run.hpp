@@ -135,6 +135,8 @@ void play(Sink& to) {
   to.on_record(messages::drive_record{102,
                                       {1000, 0, 1, 0, 1, 0, {2, 1, -2.5}},
                                       {800.5, {1, 2, -2.5}, 0, 20.5}});
+  to.on_record(messages::trip_record{101, {100, 90, 2, 12.5, false}});
+  to.on_record(messages::trip_record{102, {100, 99.25, 0, 0, true}});
   to.on_record(messages::work_record{101, planning, 1600, 0});
   to.on_record(messages::work_record{102, planning, 1000, 0});
   to.on_record(messages::plan_switch_record{

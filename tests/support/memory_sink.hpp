@@ -18,6 +18,8 @@ struct memory_sink final : messages::record_sink {
   std::vector<messages::safety_record> safety;
   std::vector<messages::collision_record> collisions;
   std::vector<messages::drive_record> drives;
+  std::vector<messages::trip_record> trips;
+  std::vector<messages::claim_record> claims;
   std::vector<messages::plan_switch_record> plan_switches;
   std::vector<messages::air_record> air;
 
@@ -39,6 +41,8 @@ struct memory_sink final : messages::record_sink {
               collisions.push_back(r);
             },
             [this](const messages::drive_record& r) { drives.push_back(r); },
+            [this](const messages::trip_record& r) { trips.push_back(r); },
+            [this](const messages::claim_record& r) { claims.push_back(r); },
             [this](const messages::plan_switch_record& r) {
               plan_switches.push_back(r);
             },

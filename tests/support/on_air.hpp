@@ -1,11 +1,11 @@
 // ITS messages for tests, at a place on Earth of their own.
 #pragma once
 
+#include "messages/broadcast/decode_broadcast.hpp"
 #include "messages/etsi/cam.hpp"
 #include "messages/etsi/cpm_tr103562.hpp"
 #include "messages/etsi/mcm.hpp"
 #include "messages/v2x/cam_content.hpp"
-#include "messages/v2x/decode_broadcast.hpp"
 #include "messages/v2x/encoded.hpp"
 #include "messages/v2x/georeference.hpp"
 #include "messages/v2x/perception.hpp"

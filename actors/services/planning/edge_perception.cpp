@@ -1,6 +1,7 @@
 // What a provider knows of the road.
 #include "actors/services/planning/edge_perception.hpp"
 
+#include "actors/services/planning/drive_words.hpp"
 #include "base/protocol.hpp"
 #include "messages/v2x/object_list.hpp"
 
@@ -35,11 +36,12 @@ world::perceived_object body_of(const messages::cam& c) {
 
 edge_perception::edge_perception(std::function<time_point()> clock,
                                  std::span<const world::building> houses,
-                                 const planners::sighting_noise& noise)
+                                 const planners::sighting_noise& noise,
+                                 messages::georeference_ptr where)
     : clock_{std::move(clock)}, model_{noise,
                                        {messages::generation::moved_m,
                                         messages::generation::longest}},
-      doubts_{houses} {}
+      doubts_{houses}, where_{std::move(where)} {}
 
 void edge_perception::on_cam(const messages::cam& c, sender_id from) {
   const auto now = clock_();
@@ -71,6 +73,27 @@ void edge_perception::on_objects(const messages::object_list& told,
   if (steady.eye)
     doubts_.judge({told.from.value(), false, from}, look_of(steady),
                   model_.tracks());
+}
+
+void edge_perception::on_word(const messages::decoded_mcm& word, sender_id) {
+  if (!where_ || protocol::is_of_future(word.at, clock_()))
+    return;
+  const std::lock_guard lock{mutex_};
+  if (said_.size() >= most_stations && !said_.contains(word.from))
+    return;
+  auto& known = said_[word.from];
+  if (known.at < word.at)
+    known = {word.at, drive_of(word, where_->frame, {}), is_claim(word),
+             word.reference};
+}
+
+void edge_perception::drives(std::vector<planners::told_drive>& out,
+                             station_id station) {
+  out.clear();
+  const std::lock_guard lock{mutex_};
+  for (const auto& [who, x] : said_)
+    if (who != station)
+      out.push_back({who, x.drive, x.is_claimed, x.front});
 }
 
 void edge_perception::on_detections(const messages::roadside_detections& view) {
@@ -132,6 +155,9 @@ void edge_perception::forget_silent(time_point now) {
   tidied_ = now;
   std::erase_if(told_, [now](const auto& x) {
     return now - x.second.newest.at > protocol::cam_timeout;
+  });
+  std::erase_if(said_, [now](const auto& x) {
+    return now - x.second.at > protocol::cam_timeout;
   });
 }
 

@@ -6,6 +6,7 @@
 #include "messages/v2x/generation_rules.hpp"
 #include "planners/plausibility/plausibility.hpp"
 #include "planners/scene/object_tracker.hpp"
+#include "planners/scene/told_drive.hpp"
 
 #include <functional>
 #include <map>
@@ -26,12 +27,16 @@ class edge_perception final : public broadcast_listener {
 public:
   /// @param houses  Of the map; they hide what is behind them.
   /// @param noise   Of those who tell what they see.
+  /// @param where   The map is; null: what vehicles say of their drives is not
+  ///                understood.
   explicit edge_perception(std::function<time_point()> clock,
                            std::span<const world::building> houses = {},
-                           const planners::sighting_noise& noise = {});
+                           const planners::sighting_noise& noise = {},
+                           messages::georeference_ptr where = nullptr);
 
   void on_cam(const messages::cam& c, sender_id from) override;
   void on_objects(const messages::object_list& told, sender_id from) override;
+  void on_word(const messages::decoded_mcm& word, sender_id from) override;
   void on_detections(const messages::roadside_detections& view) override;
   std::vector<planners::station_doubt> take_doubts() override;
 
@@ -43,6 +48,9 @@ public:
   ///          to know what is round it: bodies that stand are told of once a
   ///          second, and what nothing is known of yet has no sides to pass by.
   bool knows_surroundings_of(station_id who) const;
+
+  /// Copies what others than `station` say of their drives.
+  void drives(std::vector<planners::told_drive>& out, station_id station);
 
   /// Copies what is known now and believed by who plans for `station`.
   void tracks(std::vector<planners::track>& out, station_id station);
@@ -61,6 +69,14 @@ private:
     time_point since; ///< It has been heard without a gap.
   };
   std::map<station_id, voice> told_; // by CAMs
+  struct said {
+    time_point at;
+    planners::claimed_drive drive;
+    bool is_claimed = false;
+    point front;
+  };
+  std::map<station_id, said> said_; // of their drives, by MCMs
+  messages::georeference_ptr where_;
   time_point tidied_;
 };
 

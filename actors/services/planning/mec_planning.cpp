@@ -8,7 +8,9 @@
 #include "messages/v2x/mcm/mcm_content.hpp"
 #include "planners/scene/ego_estimator.hpp"
 #include "world/roads/route_finder.hpp"
+#include "world/roads/unrolled_route.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -41,8 +43,10 @@ public:
       return {};
     from->others.stop_at_m = stop_at_m_;
     perceived_->tracks(tracks_, station_);
+    perceived_->drives(drives_, station_);
+    from->others.agreed = agreed(*from, now);
     const auto report =
-        cycle_->run(now, planners::made_possible(*from), tracks_);
+        cycle_->run(now, planners::made_possible(*from), tracks_, drives_);
     ego_->follow(cycle_->plan());
     if (!has_begun_
         && (report.emergency || !perceived_->knows_surroundings_of(station_)))
@@ -70,8 +74,46 @@ private:
       return;
     }
     stop_at_m_ = ahead->to_m;
-    if (word->plan)
+    agreed_.reset();
+    if (!word->plan)
+      return;
+    if (word->answer
+        && word->answer->second == messages::etsi::maneuver_response::pending)
+      agreed_ = *word;
+    else
       take_over(*word, ahead->from_m, now);
+  }
+
+  // The drive that it has to keep to at a crossing.
+  std::optional<planners::agreed_drive>
+  agreed(const planners::planning_input& from, time_point now) {
+    if (!agreed_)
+      return std::nullopt;
+    const messages::maneuver_frame frame{world_->where->frame,
+                                         agreed_->reference, agreed_->at};
+    const planners::agreeing_car car{from.s_m, from.speed_mps,
+                                     world_->car.front_m};
+    planners::crossing_view view;
+    view.line_m = line_ahead_m(from.s_m + car.front_m);
+    if (messages::to_trajectory(*agreed_->plan, frame, *cycle_->way(), from.s_m,
+                                nullptr, view.drive)
+        != messages::maneuver_fault::none)
+      return std::nullopt;
+    return planners::agreed(view, now, car);
+  }
+
+  // Where the next crossing begins.
+  double line_ahead_m(double front_m) const {
+    constexpr double look_m = 200;
+    const world::unrolled_route zones{cycle_->way(),
+                                      world_->roads->lanes()->meetings()};
+    auto line_m = front_m + look_m;
+    zones.for_zones(front_m, line_m, [&](const world::zone& z) {
+      if (z.from_m >= front_m)
+        line_m = std::min(line_m, z.from_m);
+      return true;
+    });
+    return line_m;
   }
 
   // Where on which route the vehicle's way ahead is.
@@ -171,11 +213,13 @@ private:
   std::optional<planners::ego_estimator> ego_; // whenever there is a cycle
   double from_m_ = 0;                          // of the last word
   double stop_at_m_ = 0; // the end of the vehicle's authority
+  std::optional<messages::decoded_mcm> agreed_; // has the drive in it
   std::uint16_t update_ = 0;
   bool has_begun_ = false; // to suggest plans
   // Room that is used again.
   messages::etsi::mcm word_, said_;
   std::vector<planners::track> tracks_;
+  std::vector<planners::told_drive> drives_;
   std::vector<messages::maneuver_waypoint> waypoints_;
 };
 

@@ -37,8 +37,15 @@ public:
           std::clamp(from.accel_mps2, -style().comfort_decel_mps2,
                      style().max_accel_mps2); // none of its own so far
     take_in(now, request->seen);
-    from.others.stop_at_m = request->seen.stop_at_m;
-    const auto report = cycle_->run(now, std::move(from), model_.tracks());
+    from.others.stop_at_m = request->stop_at_m(world_->car);
+    std::span<const planners::told_drive> told;
+    if (const auto* agreed_on = request->crossing.get()) {
+      from.others.agreed =
+          planners::agreed(*agreed_on, now, request->agreeing(world_->car));
+      told = agreed_on->told;
+    }
+    const auto report =
+        cycle_->run(now, std::move(from), model_.tracks(), told);
     return {messages::payload::of(cycle_->plan()),
             messages::payload::of(report)};
   }

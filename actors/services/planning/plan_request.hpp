@@ -3,10 +3,14 @@
 
 #include "messages/protocol/payload.hpp"
 #include "messages/protocol/service.hpp"
+#include "planners/crossing/agreed.hpp"
 #include "planners/trajectory/trajectory_planner.hpp"
 #include "world/sensing/perception.hpp"
 #include "world/vehicle/trajectory.hpp"
 
+#include <algorithm>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +22,24 @@ struct plan_request {
   planners::planning_input from; ///< What it knows of others stays here.
   world::perception seen;        ///< By the vehicle, and granted to it.
   messages::cam own;             ///< Its motion as its CAMs tell it.
+  /// What was agreed at a crossing; stays here. Null: nothing.
+  std::shared_ptr<const planners::crossing_view> crossing;
+
+  planners::agreeing_car agreeing(const world::vehicle_params& car) const {
+    return {from.s_m, from.speed_mps, car.front_m};
+  }
+
+  /// @returns where its front has to stop: a crossing was not granted, or what
+  /// was agreed does not bind.
+  std::optional<double> stop_at_m(const world::vehicle_params& car) const {
+    auto stop_m = seen.stop_at_m;
+    if (!crossing)
+      return stop_m;
+    const auto line_m = planners::waiting_line_m(*crossing, agreeing(car));
+    return stop_m && line_m ? std::min(*stop_m, *line_m)
+           : line_m         ? line_m
+                            : stop_m;
+  }
 };
 
 void visit_fields(auto& v, plan_request& x) {
@@ -32,6 +54,10 @@ void visit_fields(auto& v, plan_request& x) {
 template <>
 inline constexpr std::string_view
     sofof::messages::payload_name<sofof::actors::plan_request> = "plan_request";
+template <>
+inline constexpr std::string_view
+    sofof::messages::payload_name<sofof::planners::crossing_view> =
+        "crossing_view";
 template <>
 inline constexpr std::string_view
     sofof::messages::payload_name<sofof::world::trajectory> = "trajectory";

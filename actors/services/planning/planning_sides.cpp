@@ -1,6 +1,7 @@
 // Trajectory planning in a vehicle and at a provider: what each has of it.
 #include "actors/services/planning/planning_sides.hpp"
 
+#include "actors/services/planning/drive_words.hpp"
 #include "actors/services/planning/mec_planning.hpp"
 #include "actors/services/planning/onboard_planning.hpp"
 #include "actors/services/planning/plan_request.hpp"
@@ -52,7 +53,8 @@ public:
   }
 
   /// An MCM: where the vehicle may go, and the plan in use for who takes over,
-  /// or that it follows what was suggested.
+  /// or that it follows what was suggested; "pending" means, within the drive
+  /// that was agreed at a crossing, which it has then.
   messages::service_input encode_input(messages::service_input input,
                                        bool takes_over) const override {
     const auto request = input.what.as<plan_request>();
@@ -60,14 +62,22 @@ public:
     if (!way)
       return {};
     const auto ahead =
-        authority(*way, request->from.s_m, request->seen.stop_at_m);
+        authority(*way, request->from.s_m, request->stop_at_m(world_->car));
     messages::mcm_uplink word{request->own, ahead, nullptr, {}};
     const auto plan =
         takes_over ? input.in_use.as<world::trajectory>() : nullptr;
     word.plan = plan.get();
+    const auto agreed =
+        takes_over || !request->crossing
+            ? world::trajectory{}
+            : told_rest(request->crossing->drive, request->own.at);
+    if (!agreed.empty())
+      word.plan = &agreed;
     if (!takes_over)
       word.answer.emplace(name_of_maneuver(input.session),
-                          messages::etsi::maneuver_response::accept);
+                          agreed.empty()
+                              ? messages::etsi::maneuver_response::accept
+                              : messages::etsi::maneuver_response::pending);
     auto message = messages::encoded(
         messages::make_word(word, world_->car, *world_->where));
     if (message.octets.empty())
@@ -115,9 +125,10 @@ class planning_requests final : public plan_client {
 public:
   messages::payload ask(const world::route& way,
                         const planners::planning_input& from,
-                        const world::perception& seen,
-                        const messages::cam& own) const override {
-    return messages::payload::of(plan_request{way.name(), from, seen, own});
+                        const world::perception& seen, const messages::cam& own,
+                        const messages::payload& crossing) const override {
+    return messages::payload::of(plan_request{
+        way.name(), from, seen, own, crossing.as<planners::crossing_view>()});
   }
 
   std::optional<received_plan>
@@ -138,7 +149,7 @@ public:
       : world_{std::move(world)}, provider_{std::move(provider)},
         perceived_{std::make_shared<edge_perception>(
             provider_.clock, world_->streets->map.buildings(),
-            planners::noise_of(world_->eyes))} {}
+            planners::noise_of(world_->eyes), world_->where)} {}
 
   std::shared_ptr<offloading::service_function>
   make_function(station_id vehicle) override {

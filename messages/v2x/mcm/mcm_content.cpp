@@ -201,6 +201,16 @@ etsi::mcm make_termination(const suggestion& what, time_point at,
   return message;
 }
 
+etsi::mcm make_silence(const suggestion& what, time_point at,
+                       const georeference& where) {
+  etsi::mcm message;
+  begin(message, what.from, etsi::roadside_unit, what.position, at, where);
+  made<etsi::suggested_maneuver_container>(
+      message.body.parameters.maneuver.value)
+      .target = what.to.value();
+  return message;
+}
+
 namespace {
 
 const etsi::suggested_maneuver_container*

@@ -76,6 +76,10 @@ bool make_suggestion(const suggestion& what, const world::trajectory& plan,
                      const georeference& where,
                      std::vector<maneuver_waypoint>& room, etsi::mcm& out);
 
+/// There is nothing to suggest now.
+etsi::mcm make_silence(const suggestion& what, time_point at,
+                       const georeference& where);
+
 etsi::mcm make_termination(const suggestion& what, time_point at,
                            etsi::termination_status why,
                            const georeference& where);

@@ -4,14 +4,15 @@
 #include "messages/protocol/its_pdu.hpp"
 #include "messages/protocol/service.hpp"
 #include "messages/v2x/georeference.hpp"
+#include "messages/v2x/mcm/mcm_content.hpp"
 #include "messages/v2x/perception.hpp"
 
 #include <variant>
 
 namespace sofof::messages {
 
-/// A CAM, a CPM, or neither.
-using broadcast = std::variant<std::monostate, cam, object_list>;
+/// A CAM, a CPM, an MCM of a vehicle, or nothing.
+using broadcast = std::variant<std::monostate, cam, object_list, decoded_mcm>;
 
 /// @param now  See read_cam, read_cpm.
 /// @returns nothing for what cannot be decoded, does not tell what it has to,

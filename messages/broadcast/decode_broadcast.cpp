@@ -1,5 +1,5 @@
 // What a message of another station says.
-#include "messages/v2x/decode_broadcast.hpp"
+#include "messages/broadcast/decode_broadcast.hpp"
 
 #include "messages/etsi/uper.hpp"
 #include "messages/v2x/cam_content.hpp"
@@ -30,6 +30,8 @@ broadcast decode(const its_pdu& message, const georeference& where,
     return word_of(read_cpm(in, where, now));
   if (etsi::ts103324::cpm in; etsi::decode(octets, in))
     return word_of(read_cpm(in, where));
+  if (etsi::mcm in; etsi::decode(octets, in))
+    return word_of(read_word(in, where, now));
   return {};
 }
 

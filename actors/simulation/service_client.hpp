@@ -3,6 +3,7 @@
 #pragma once
 
 #include "messages/type_ids.hpp"
+#include "planners/speed/route_profile.hpp"
 
 #include <caf/actor_system.hpp>
 
@@ -12,6 +13,9 @@ namespace sofof::actors {
 struct client_place {
   caf::actor_system& system;
   const messages::vehicle_actor& vehicle; ///< That it belongs to.
+  station_id station = 0;
+  planners::route_profile_ptr road{}; ///< Of its route; null: it has none.
+  messages::recorder_actor recorder{};
 };
 
 /// What a service's `spawn_client` has spawned.

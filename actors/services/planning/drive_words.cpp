@@ -1,0 +1,47 @@
+// What vehicles say of their drives at a crossing, in MCMs.
+#include "actors/services/planning/drive_words.hpp"
+
+#include <chrono>
+#include <cmath>
+
+namespace sofof::actors {
+
+planners::claimed_drive drive_of(const messages::decoded_mcm& word,
+                                 const messages::geo_frame& earth,
+                                 const world::vehicle_params& car) {
+  planners::claimed_drive drive;
+  if (!word.plan || word.plan->step_ms < 1)
+    return drive;
+  drive.from = word.at + std::chrono::milliseconds{word.plan->start_ms};
+  drive.step = std::chrono::milliseconds{word.plan->step_ms};
+  const auto middle_m = (car.front_m - car.rear_m) / 2;
+  for (const auto& p : word.plan->points) {
+    const auto heading = earth.to_map_heading(p.heading, word.reference);
+    if (!heading)
+      return {};
+    const auto axle =
+        word.reference
+        + earth.to_map_axes({p.x_cm / 100.0, p.y_cm / 100.0}, word.reference);
+    const point ahead{std::cos(*heading), std::sin(*heading)};
+    drive.bodies.push_back({axle + middle_m * ahead, *heading,
+                            car.front_m + car.rear_m, car.width_m});
+  }
+  return drive;
+}
+
+world::trajectory told_rest(const world::trajectory& drive, time_point now) {
+  constexpr std::size_t most = 200;
+  auto left = world::rest_of(drive, now);
+  if (left.points.size() > most)
+    left.points.resize(most);
+  if (left.points.size() < 2)
+    left.points.clear();
+  return left;
+}
+
+bool is_claim(const messages::decoded_mcm& word) {
+  return word.plan && word.answer
+         && word.answer->second == messages::etsi::maneuver_response::accept;
+}
+
+} // namespace sofof::actors

@@ -1,0 +1,25 @@
+// The air between vehicles.
+#pragma once
+
+#include "base/random.hpp"
+#include "channel/channel_profile.hpp"
+#include "messages/type_ids.hpp"
+
+#include <caf/actor_system.hpp>
+
+#include <memory>
+
+namespace sofof::actors {
+
+/// How vehicles hear each other.
+struct air_setup {
+  std::shared_ptr<const channel::channel_profile> channel; ///< Not null.
+  random_stream noise{0, ""};
+  double range_m = 300;
+};
+
+/// Carries what one vehicle tells to all that are near it, to each with its own
+/// delay and loss, in order. Who has died is forgotten.
+messages::air_actor spawn_air(caf::actor_system& sys, air_setup setup);
+
+} // namespace sofof::actors
