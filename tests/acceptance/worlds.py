@@ -42,6 +42,7 @@ class Streets:
         self.half_width_m = half_width_m
         self.limit_mps = limit_mps
         self.lanes = {}  # name: points, names of the next, rank
+        self.opposite = {}  # of a lane, the one beside it on the left
         self.routes = {}  # name: names of lanes, closed or not
         self.buildings = []
         self.clear_m = 0  # no body within this of the middle: a crossing
@@ -64,6 +65,8 @@ class Streets:
                       f"points_m = {places(points)}"]
             if following:
                 lines.append(f"next = {words(following)}")
+            if name in self.opposite:
+                lines.append(f'opposite = "{self.opposite[name]}"')
         for name, (lanes, closed) in self.routes.items():
             lines += ["[[route]]", f'name = "{name}"', f"lanes = {words(lanes)}",
                       f"closed = {str(closed).lower()}"]
@@ -470,3 +473,125 @@ name = "trajectory_planning"
 cycles = false
 tracks_period = "200ms"
 """
+
+
+BLOCKED_M, BLOCKS_M = 250, 6.0  # where what blocks a street begins, its length
+
+
+def blocked(seed, at_server):
+    """A street of two ways of which one is blocked 220 m before a car, while
+    others come on the other one, half of them without a radio."""
+    rng = random.Random(f"blocked {seed}")
+    streets = Streets("blocked", 1.75, 8.33)
+    streets.add("east", along((0, 0), (600, 0)))
+    streets.add("west", along((600, 3.5), (0, 3.5)))
+    streets.opposite = {"east": "west", "west": "east"}
+    streets.routes = {"east": (["east"], False), "west": (["west"], False)}
+    fleets, station, at_s = [fleet(101, 1, "east", 30)], 201, 0.0
+    while True:
+        at_s += rng.expovariate(1 / 20)
+        if at_s > 130:
+            break
+        fleets.append(fleet(station, 1, "west", 10, speed_mps=8.0,
+                            appears_s=at_s, connected=rng.random() < 0.5))
+        station += 1
+    width_m = rng.uniform(1.8, 2.5)
+    truck = body((BLOCKED_M + BLOCKS_M / 2, rng.uniform(-0.5, 0.0)), 0, BLOCKS_M,
+                 width_m)
+    server = """[[provider]]
+name = "mec"
+position_m = [250.0, 20.0]
+area_radius_m = 1500.0
+services = ["trajectory_planning"]
+[network]
+profile = "paper_5g"
+[policies]
+lodm = "always"
+codm = "always"
+""" if at_server else ""
+    return streets, f"""name = "blocked {seed}"
+duration = "180s"
+seed = {seed}
+map = "map.toml"
+[traffic]
+crossings = "perceived"
+{"".join(fleets)}[sensors]
+range_m = 130.0
+{truck}{server}[[service]]
+name = "trajectory_planning"
+[record]
+cycles = false
+tracks_period = "200ms"
+"""
+
+
+# --- Hostile worlds -------------------------------------------------------------
+
+def tailgating(rng, streets):
+    """Fleets that start close behind each other and fast, and whether each car
+    could stop if the one ahead does."""
+    tables, starts, station, fair_start = [], [], 101, True
+    for route, (_, closed) in (
+            streets.routes.items() if not streets.clear_m else
+            rng.sample(sorted(streets.routes.items()),
+                       rng.randint(2, min(6, len(streets.routes))))):
+        connected = rng.random() < 0.8
+        speed_mps = min(rng.choice([0.0, 5.0, 8.0, 10.0, 13.0]),
+                        streets.limit_mps)
+        if streets.clear_m:
+            start_m, spacing_m = rng.uniform(8, 45), 0.0
+            ahead_m = streets.length_m(route) / 2 - streets.clear_m - start_m
+            fair_start &= ahead_m > room_to_brake_m(speed_mps) - 12
+            tables.append(fleet(station, rng.randint(1, 3), route, start_m, 0,
+                                speed_mps, rng.uniform(0, 3),
+                                rng.uniform(1.5, 5), connected))
+            ways = [start_m]
+        else:
+            spacing_m = rng.uniform(8.2, 16)
+            gap_m = spacing_m - CAR_FRONT_M - CAR_REAR_M
+            fair_start &= gap_m > 2 + 0.6 * speed_mps
+            longest_m = streets.length_m(route) / (2 if closed else 3)
+            count = max(1, min(rng.randint(1, 8), int(longest_m / spacing_m)))
+            start_m = count * spacing_m + 10
+            tables.append(fleet(station, count, route, start_m, spacing_m,
+                                speed_mps, connected=connected))
+            ways = [start_m - i * spacing_m for i in range(count)]
+        starts += [(streets.place(route, way)[0], speed_mps) for way in ways]
+        station += 100
+    return tables, starts, fair_start
+
+
+def hostile(number, duration_s=60):
+    """As `fair`, but sensors see little and badly, who starts is fast and close
+    behind others, and the air loses much: map, scenario, and whether the start
+    leaves everybody room to stop and sensors reach 20 m at least."""
+    rng = random.Random(f"hostile {number}")
+    equal, perceived = rng.random() < 0.3, rng.random() < 0.5
+    streets = any_streets(rng, equal)
+    range_m = rng.choice([100, 50, 30, 20, 12, 9])
+    fleets, starts, fair_start = tailgating(rng, streets)
+    noise = f"""[sensors]
+range_m = {float(range_m)}
+position_noise_m = {rng.choice([0.1, 0.3, 0.5, 1.0])}
+speed_noise_mps = {rng.choice([0.1, 0.5, 1.0])}
+heading_noise_rad = {rng.choice([0.01, 0.05, 0.1])}
+field_of_view_deg = {rng.choice([360.0, 360.0, 180.0, 120.0])}
+"""
+    obstacles = bodies(rng, streets, starts, 100)
+    server = network(rng, duration_s) if rng.random() < 0.7 else ""
+    head = f"""name = "hostile {number}"
+duration = "{duration_s}s"
+seed = {rng.randint(1, 999)}
+map = "map.toml"
+[traffic]
+crossings = "{'perceived' if perceived else 'granted'}"
+"""
+    tail = """[[service]]
+name = "trajectory_planning"
+[record]
+cycles = false
+tracks_period = "200ms"
+"""
+    return streets, "".join([head, *fleets, noise, *obstacles, server, tail]), \
+        fair_start and range_m >= 20
+
