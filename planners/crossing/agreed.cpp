@@ -36,6 +36,8 @@ struct waiting {
 /// @returns the first place ahead at which a drive waits.
 std::optional<waiting> next_wait(const world::trajectory& drive, double since_s,
                                  const agreeing_car& car) {
+  assert(!drive.empty() && std::isfinite(since_s));
+  assert(std::isfinite(car.s_m) && car.speed_mps >= 0);
   const auto& all = drive.points;
   std::optional<waiting> found;
   for (std::size_t k = 0; k + while_points < all.size(); ++k) {
@@ -61,6 +63,8 @@ std::optional<waiting> next_wait(const world::trajectory& drive, double since_s,
 
 std::optional<agreed_drive> agreed(const crossing_view& with, time_point now,
                                    const agreeing_car& car) {
+  assert(std::isfinite(car.s_m) && std::isfinite(with.line_m));
+  assert(car.speed_mps >= 0 && car.front_m >= 0);
   const auto is_on_crossing = car.s_m + car.front_m > with.line_m + on_it_m;
   if (with.drive.empty() || (is_on_crossing && !with.binds))
     return std::nullopt;
@@ -70,6 +74,7 @@ std::optional<agreed_drive> agreed(const crossing_view& with, time_point now,
     a.waits_at_m = wait->at_m;
     return a;
   }
+  assert(!a.waits_at_m);
   a.binds_from_m = with.line_m - car.front_m - counts_before_line_m;
   for (const auto& p : with.drive.points)
     if (a.axle.empty() || p.s_m > a.axle.back().s_m + next_place_m)

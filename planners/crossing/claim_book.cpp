@@ -35,6 +35,7 @@ bool claim_book::claim(time_point now, const claimed_drive& drive,
 
 void claim_book::on_report(time_point now, const crossing_claim& told,
                            bool matters) {
+  assert(!told.drive || told.drive->step > duration{});
   if (told.who == me_ || told.generated > now + 2 * rules_.clock_error)
     return; // an echo, or of a clock that is wrong
   auto x = std::ranges::find(others_, told.who,
@@ -55,6 +56,7 @@ void claim_book::pass_time(time_point now) {
   assert(rules_.clock_error >= duration{} && rules_.memory > duration{});
   if (own_ && (binds_ ? own_->to() < now : now - claimed_at_ > rules_.patience))
     give_up();
+  assert(!binds_ || own_);
   // What was claimed by who has fallen silent stays so until it is over.
   std::erase_if(others_, [&](const other& x) {
     return now - x.told.generated > rules_.memory

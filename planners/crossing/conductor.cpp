@@ -45,6 +45,7 @@ double line_stopping_m(double speed_mps) {
 /// @returns what a trajectory is of the middle of a body.
 way_motion motion_of(const world::trajectory& drive, time_point now,
                      double from_axle_m) {
+  assert(drive.points.size() >= 2 && std::isfinite(from_axle_m));
   const auto& all = drive.points;
   const auto more_s = to_seconds(drive.start - now);
   std::vector<double> times_s;
@@ -61,6 +62,7 @@ way_motion motion_of(const world::trajectory& drive, time_point now,
             : 1.0;
     times_s.push_back(more_s + std::lerp(all[k].t_s, all[k + 1].t_s, share));
   }
+  assert(std::ranges::is_sorted(times_s));
   return times_s.size() < 2 ? way_motion{}
                             : way_motion{from_m, std::move(times_s)};
 }
@@ -96,16 +98,19 @@ void conductor::plan(time_point now, std::span<const approaching_car> cars,
       x.is_fixed = x.is_fixed || !x.told.empty();
     arrange();
   }
+  assert(free_.size() <= cars_.size());
   tell(now, out);
 }
 
 // -- who there is -------------------------------------------------------------
 
 void conductor::gather(time_point now, std::span<const approaching_car> all) {
+  assert(how_.looks_ahead_m > 0);
   cars_.clear();
   std::map<station_id, time_point> wishes;
   for (const auto& one : all)
     if (const auto at = ways_.find(one.way, one.s_m, how_.looks_ahead_m)) {
+      assert(one.speed_mps >= 0 && one.way);
       cars_.push_back(make_approach(now, one, *at));
       auto& x = cars_.back();
       const auto line_s =
@@ -116,16 +121,20 @@ void conductor::gather(time_point now, std::span<const approaching_car> all) {
       wishes.emplace(one.who, wish);
       x.wish_s = std::min(to_seconds(wish - now), line_s);
     }
+  assert(cars_.size() <= all.size() && wishes.size() == cars_.size());
   wishes_ = std::move(wishes);
 }
 
 approach conductor::make_approach(time_point now, const approaching_car& one,
                                   const crossing_ways::place& at) const {
+  assert(one.speed_mps >= 0 && std::isfinite(one.accel_mps2));
+  assert(std::isfinite(at.middle_m));
   const auto& way = ways_[at.way];
   approach x{.is = &one, .at = at, .alone = {}, .told = {}, .motion = {}};
   x.alone = drive_freely(*way.way, how_.alone, at.middle_m, one.speed_mps,
                          std::max(way.leaves_m, at.middle_m)
                              + crossing_ways::behind_m);
+  assert(!x.alone.empty());
   if (one.drive && one.drive->points.size() >= 2)
     x.told = motion_of(*one.drive, now, ways_.middle_m() - at.lap_m);
   if (!x.told.empty()
@@ -166,6 +175,7 @@ bool conductor::arrange() {
     return std::pair{ways_[cars_[i].at.way].lane, spacing_.left_m(cars_[i])};
   });
   const auto problem = pose();
+  assert(problem.size() == free_.size());
   const auto by_arrival = order_of_arrival(problem);
   const auto likely = likely_order(problem);
   const auto& first =
@@ -173,6 +183,8 @@ bool conductor::arrange() {
           ? likely
           : by_arrival;
   const auto& best = search_.solve(problem, first);
+  assert(best.order.size() == free_.size());
+  assert(best.at_s.size() == free_.size());
   const auto is_driven = drive_all(best.order, &best.at_s)
                          || drive_all(best.order, nullptr)
                          || drive_all(likely, nullptr);
@@ -191,6 +203,7 @@ std::vector<order_problem::closure> conductor::closures(const approach& x) {
 }
 
 order_problem conductor::pose() {
+  assert(std::ranges::all_of(free_, [&](auto i) { return i < cars_.size(); }));
   std::vector<order_problem::car> all;
   std::vector<std::size_t> lanes;
   for (const auto i : free_) {
@@ -202,17 +215,20 @@ order_problem conductor::pose() {
     all.push_back({static_cast<std::size_t>(known - lanes.begin()), x.wish_s,
                    std::max(0.0, x.alone.time_s(way.enters_m)), closures(x)});
   }
+  assert(all.size() == free_.size() && lanes.size() <= all.size());
   order_problem problem{std::move(all)};
   for (std::size_t a = 0; a < free_.size(); ++a)
     for (std::size_t b = 0; b < free_.size(); ++b)
       if (a != b)
         problem.set_lag(a, b, spacing_.lag_s(cars_[free_[a]], cars_[free_[b]]));
+  assert(problem.size() == free_.size());
   return problem;
 }
 
 /// @returns the last order, with new cars behind it; each lane's as they come.
 std::vector<std::size_t>
 conductor::likely_order(const order_problem& problem) const {
+  assert(problem.size() == free_.size());
   std::vector<std::size_t> order;
   const auto add_with_leaders = [&](std::size_t n) {
     for (std::size_t m = 0; m <= n; ++m)
@@ -237,6 +253,8 @@ conductor::likely_order(const order_problem& problem) const {
 /// @returns whether all that are not fixed can drive so.
 bool conductor::drive_all(std::span<const std::size_t> order,
                           const std::vector<double>* at_s) {
+  assert(order.size() == free_.size());
+  assert(!at_s || at_s->size() == order.size());
   std::vector<std::size_t> before;
   for (std::size_t i = 0; i < cars_.size(); ++i)
     if (cars_[i].is_fixed)
@@ -248,6 +266,7 @@ bool conductor::drive_all(std::span<const std::size_t> order,
     x.line_s = at_s ? (*at_s)[n] : 0;
     if (!drive(x, before, at_s != nullptr))
       return false;
+    assert(!x.motion.empty());
     before.push_back(free_[n]);
   }
   return true;
@@ -256,12 +275,15 @@ bool conductor::drive_all(std::span<const std::size_t> order,
 bool conductor::drive(approach& x, std::span<const std::size_t> before,
                       bool may_slip_in) {
   const auto& way = ways_[x.at.way];
+  assert(x.is && !x.is_fixed);
   list_windows(x, before, may_slip_in);
   const auto is_found =
       drives_.find(*way.way,
                    {x.at.middle_m, x.is->speed_mps, x.is->accel_mps2,
                     way.enters_m, windows_.earliest_s, windows_.latest_s},
                    x.motion);
+  assert(windows_.earliest_s.size() == windows_.latest_s.size());
+  assert(!is_found || !x.motion.empty());
   if (is_kept(x)
       && (!is_found
           || x.told.time_s(way.leaves_m)
@@ -276,6 +298,8 @@ bool conductor::drive(approach& x, std::span<const std::size_t> before,
 
 /// @returns whether it can go on as it was told, within the windows.
 bool conductor::is_kept(const approach& x) const {
+  assert(windows_.earliest_s.size() == windows_.latest_s.size());
+  assert(std::isfinite(x.at.middle_m));
   if (x.told.empty() || x.told.ends_m() < ways_[x.at.way].leaves_m
       || (x.is->speed_mps > car_rests_mps
           && std::abs(x.told.time_s(x.at.middle_m)) > as_told_s))
@@ -306,8 +330,11 @@ void conductor::list_windows(const approach& x,
       std::max(ways_[x.at.way].leaves_m - x.at.middle_m, 0.0) + told_behind_m;
   const auto count =
       static_cast<std::size_t>(std::ceil(way_m / window_drive::step_m)) + 2;
+  assert(way_m > 0 && count >= 2);
   windows_.earliest_s.assign(count, -at_no_time);
   windows_.latest_s.assign(count, at_no_time);
+  assert(std::ranges::none_of(others,
+                              [&](std::size_t i) { return &cars_[i] == &x; }));
   for (const auto i : others)
     if (may_slip_in && goes_before(x, cars_[i]))
       spacing_.go_before(cars_[i], x, windows_);
@@ -337,6 +364,7 @@ world::trajectory conductor::written(time_point now, const approach& x) const {
   const auto begin_s = x.motion.time_s(x.motion.begins_m());
   const auto end_s = x.motion.time_s(
       std::min(x.motion.ends_m(), way.leaves_m + told_behind_m / 2));
+  assert(!x.motion.empty() && begin_s <= end_s);
   const auto speed_mps = [&](double t) {
     const auto from = std::max(begin_s, t - told_every_s);
     const auto to = std::min(end_s, t + told_every_s);
@@ -365,6 +393,8 @@ world::trajectory conductor::written(time_point now, const approach& x) const {
          p.curvature_1pm, v,
          std::clamp(accel_mps2, -told_most_mps2, told_most_mps2)});
   }
+  assert(!drive.points.empty());
+  assert(std::isfinite(s_m) && v >= 0);
   return drive;
 }
 

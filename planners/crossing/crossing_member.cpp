@@ -29,6 +29,7 @@ constexpr double member_stops_mps2 = 2, member_decides_s = 0.5,
 
 /// @returns when a drive is at a place; nullopt if it does not come there.
 std::optional<time_point> time_at(const world::trajectory& drive, double s_m) {
+  assert(std::isfinite(s_m));
   const auto& all = drive.points;
   for (std::size_t k = 0; k < all.size(); ++k)
     if (all[k].s_m >= s_m) {
@@ -69,6 +70,8 @@ crossing_member::enters(const world::trajectory& drive) const {
 /// plan in use tells.
 bool crossing_member::is_kept(time_point now,
                               const world::trajectory& drive) const {
+  assert(own_.speed_mps >= 0 && std::isfinite(own_.line_m));
+  assert(!drive.empty());
   const auto line_m = own_.line_m - car_.front_m;
   if (own_.s_m > line_m)
     return true;
@@ -93,6 +96,8 @@ bool crossing_member::is_held_up(time_point now) const {
 }
 
 claimed_drive crossing_member::claim_of(const world::trajectory& drive) const {
+  assert(!drive.empty());
+  assert(own_.clear_m >= own_.line_m);
   claimed_drive claim{{}, claimed_every, {}};
   const auto from =
       time_at(drive, own_.line_m - car_.front_m - claims_before_line_m);
@@ -115,6 +120,7 @@ void crossing_member::on_report(time_point now, const crossing_claim& told,
                                 const claimed_drive& plan, point from) {
   if (told.who == me_)
     return;
+  assert(std::isfinite(from.x_m) && std::isfinite(from.y_m));
   const auto matters = distance_m(from, own_.at) < rules_.near_m;
   book_.on_report(now, told, matters);
   follow_claim(now);
@@ -124,11 +130,13 @@ void crossing_member::on_report(time_point now, const crossing_claim& told,
     x = told_.insert(x, heard{});
   else if (told.generated < x->at)
     return;
+  assert(x->is.who == told.who || x->is.who == station_id{0});
   *x = {{told.who, plan, told.drive.has_value(), from}, told.generated};
 }
 
 void crossing_member::move(time_point now, const place& own) {
   assert(std::isfinite(own.s_m) && own.speed_mps >= 0);
+  assert(own.clear_m >= own.line_m);
   own_ = own;
   book_.pass_time(now);
   std::erase_if(
@@ -145,6 +153,8 @@ void crossing_member::move(time_point now, const place& own) {
 }
 
 void crossing_member::claim(time_point now, const world::trajectory& drive) {
+  assert(book_.is() == claim_book::state::free);
+  assert(!drive.empty());
   const auto at = enters(drive);
   const auto has_left =
       own_.s_m - car_.rear_m > own_.clear_m
@@ -155,6 +165,7 @@ void crossing_member::claim(time_point now, const world::trajectory& drive) {
   const auto claim = claim_of(drive);
   if (claim.empty() || !book_.claim(now, claim, {}))
     return;
+  assert(book_.is() != claim_book::state::free);
   claimed_ = drive;
   claimed_line_m_ = own_.line_m;
   claimed_clear_m_ = own_.clear_m;
@@ -168,6 +179,8 @@ void crossing_member::claim(time_point now, const world::trajectory& drive) {
 void crossing_member::follow_claim(time_point now) {
   if (!present_)
     return;
+  assert(present_->claimed <= now);
+  assert(!present_->bound || *present_->bound <= now);
   const auto is = book_.is();
   if (is == claim_book::state::bound && !present_->bound)
     present_->bound = now;

@@ -66,6 +66,7 @@ crossing_spacing::closure(const approach& fixed, const approach& then) {
   const auto from_s = then.alone.time_s(ways_[then.at.way].enters_m) - late_s;
   if (!(from_s < to_s))
     return std::nullopt;
+  assert(std::isfinite(to_s));
   return order_problem::closure{from_s, to_s};
 }
 
@@ -75,6 +76,7 @@ void crossing_spacing::go_after(const approach& first, const approach& x,
   const auto& meet = ways_.meet(first.at.way, x.at.way);
   const auto apart = gap(first, x);
   const auto is_one_lane = ways_[first.at.way].lane == ways_[x.at.way].lane;
+  assert(own.earliest_s.size() == own.latest_s.size());
   const auto stop_m = braking_way_m(x.is->speed_mps);
   for (std::size_t k = 1; k < own.earliest_s.size(); ++k) {
     const auto way_m = static_cast<double>(k) * window_drive::step_m;
@@ -94,6 +96,7 @@ void crossing_spacing::go_before(const approach& then, const approach& x,
                                  place_windows& own) {
   assert(!then.motion.empty());
   const auto& meet = ways_.meet(x.at.way, then.at.way);
+  assert(!own.latest_s.empty());
   const auto apart = gap(x, then);
   for (auto at_m = then.motion.begins_m(); at_m < then.motion.ends_m();
        at_m += window_drive::step_m) {

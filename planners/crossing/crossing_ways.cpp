@@ -43,6 +43,7 @@ crossing_ways::know(const route_profile_ptr& way) {
 void crossing_ways::find_lanes(const world::route& route,
                                crossing_way& x) const {
   const auto lanes = route.sequence();
+  assert(!lanes.empty() && x.leaves_m >= x.enters_m);
   const auto index_at = [&](double s_m) {
     std::size_t i = 0;
     while (i + 1 < lanes.size() && route.start_of_m(i + 1) <= s_m)
@@ -53,6 +54,7 @@ void crossing_ways::find_lanes(const world::route& route,
   for (auto i = in; i > 0 && route.start_of_m(i) > x.enters_m - one_lane_m;)
     if (lanes_->next(lanes[--i]).size() > 1)
       in = i;
+  assert(in < lanes.size());
   x.lane = lanes[in];
   x.lane_ends_m = route.start_of_m(in + 1);
   auto out = index_at(x.leaves_m + near_m);
@@ -60,10 +62,12 @@ void crossing_ways::find_lanes(const world::route& route,
                      && route.start_of_m(i + 1) < x.leaves_m + one_lane_m;)
     if (lanes_->previous(lanes[++i]).size() > 1)
       out = i;
+  assert(in < lanes.size() && out < lanes.size());
   x.out_lane = lanes[out];
 }
 
 void crossing_ways::list_ways(known_route& route) {
+  assert(route.way);
   route.ways.clear();
   const auto& line = route.way->line.way();
   const auto half_m = (car_.front_m + car_.rear_m) / 2;
@@ -71,6 +75,7 @@ void crossing_ways::list_ways(known_route& route) {
   const world::unrolled_route way{world::route_ptr{route.way, &line},
                                   lanes_->meetings()};
   const auto add = [&](double from_m, double to_m) {
+    assert(to_m >= from_m);
     crossing_way x{route.way, from_m - half_m, to_m + half_m};
     find_lanes(line, x);
     route.ways.push_back(ways_.size());
@@ -79,6 +84,7 @@ void crossing_ways::list_ways(known_route& route) {
   auto from_m = 0.0, to_m = 0.0;
   auto has_begun = false;
   way.for_zones(0, line.length_m(), [&](const world::zone& z) {
+    assert(z.to_m >= z.from_m);
     const auto middle = line.path().at((z.from_m + z.to_m) / 2).at;
     if (distance_m(middle, within_.centre) > within_.radius_m
         || lanes_->is_on_roundabout(z.side)
@@ -94,6 +100,7 @@ void crossing_ways::list_ways(known_route& route) {
     to_m = std::max(to_m, z.to_m);
     return true;
   });
+  assert(half_m > 0);
   if (has_begun)
     add(from_m, to_m);
 }
@@ -101,6 +108,7 @@ void crossing_ways::list_ways(known_route& route) {
 std::optional<crossing_ways::place>
 crossing_ways::find(const route_profile_ptr& way, double s_m, double ahead_m) {
   assert(std::isfinite(s_m) && ahead_m > 0);
+  assert(way);
   const auto& route = know(way);
   const auto lap_m = way->line.way().length_m();
   const auto laps =
@@ -122,6 +130,7 @@ crossing_ways::find(const route_profile_ptr& way, double s_m, double ahead_m) {
 const world::meeting_curve& crossing_ways::meet(std::size_t first,
                                                 std::size_t then) {
   assert(first < ways_.size() && then < ways_.size());
+  assert(ways_[first].way && ways_[then].way);
   const auto [known, is_new] = meet_.try_emplace({first, then});
   if (is_new) {
     const world::moving_body body{car_.front_m + car_.rear_m + beside_m,

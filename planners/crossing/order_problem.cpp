@@ -1,6 +1,7 @@
 // What comes of an order.
 #include "planners/crossing/order_problem.hpp"
 
+#include <cassert>
 #include <numeric>
 
 namespace sofof::planners {
@@ -30,6 +31,7 @@ std::vector<std::size_t> order_of_arrival(const order_problem& problem) {
   std::vector<double> latest_s(cars.size(), order_problem::never_meet);
   std::vector<double> arrives_s;
   for (const auto& x : cars) {
+    assert(x.lane < cars.size());
     latest_s[x.lane] = std::max(latest_s[x.lane], x.wish_s);
     arrives_s.push_back(latest_s[x.lane]);
   }

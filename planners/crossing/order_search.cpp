@@ -2,6 +2,7 @@
 #include "planners/crossing/order_search.hpp"
 
 #include <bit>
+#include <cassert>
 #include <tuple>
 
 namespace sofof::planners {
@@ -41,6 +42,7 @@ void order_search::prepare(const order_problem& problem) {
     lane.clear();
   for (std::size_t i = 0; i < count; ++i)
     lanes_[problem.cars()[i].lane].push_back(i);
+  assert(lanes_.size() >= count);
   heads_.assign(lanes_.size(), 0);
   levels_.resize(std::max(levels_.size(), count + 1));
   for (auto& x : levels_)
@@ -130,6 +132,7 @@ void order_search::list_children(std::size_t depth, double cost) {
 /// @returns whether it holds up nobody of another lane.
 bool order_search::go(std::size_t lane, level& here) {
   const auto who = lanes_[lane][heads_[lane]];
+  assert(who < here.entry_s.size());
   const auto at_s = here.entry_s[who];
   const auto begin = here.child_entry_s.size();
   here.child_entry_s.insert(here.child_entry_s.end(), here.entry_s.begin(),
@@ -152,6 +155,7 @@ bool order_search::go(std::size_t lane, level& here) {
 }
 
 double order_search::bound(std::span<const double> entry_s) const {
+  assert(entry_s.size() == problem_->size());
   auto sum = 0.0;
   for (std::size_t lane = 0; lane < lanes_.size(); ++lane) {
     auto before_s = 0.0;
@@ -172,6 +176,7 @@ double order_search::bound(std::span<const double> entry_s) const {
 /// Remembers a state.
 /// @returns whether no state before is as good in every respect.
 bool order_search::is_new(std::span<const double> entry_s, double cost) {
+  assert(cost >= 0 && !buckets_.empty());
   const auto gone = hash(heads_);
   auto& bucket = buckets_[gone & (buckets_.size() - 1)];
   for (auto i = bucket; i != no_label; i = labels_[i].next)
@@ -190,6 +195,7 @@ bool order_search::is_new(std::span<const double> entry_s, double cost) {
 
 bool order_search::is_no_better(const label& x, std::span<const double> entry_s,
                                 double cost) const {
+  assert(entry_s.size() == problem_->size());
   if (x.cost > cost + same_s
       || !std::equal(heads_.begin(), heads_.end(),
                      label_heads_.begin()

@@ -23,6 +23,7 @@ way_motion::way_motion(double from_m, std::vector<double> times_s)
 }
 
 double way_motion::time_s(double at_m) const {
+  assert(std::isfinite(at_m));
   assert(times_s_.size() >= 2);
   const auto steps = (at_m - from_m_) / step_m;
   const auto last = static_cast<double>(times_s_.size() - 2);
@@ -36,6 +37,7 @@ double way_motion::time_s(double at_m) const {
 }
 
 double way_motion::place_m(double at_s) const {
+  assert(!std::isnan(at_s));
   assert(times_s_.size() >= 2);
   const auto next = std::ranges::upper_bound(times_s_, at_s);
   if (next == times_s_.begin())

@@ -72,6 +72,7 @@ bool window_drive::find(const route_profile& way, const task& what,
 
 /// Lets the acceleration fade out.
 void window_drive::begin(const task& what, bool smoothly) {
+  assert(std::isfinite(what.s_m) && std::isfinite(what.accel_mps2));
   constexpr double dt_s = 0.05, none_mps2 = 0.05;
   fade_s_.clear();
   auto s = 0.0, v = what.speed_mps, t = 0.0, next_m = way_motion::step_m;
@@ -97,6 +98,7 @@ void window_drive::begin(const task& what, bool smoothly) {
 
 /// As fast as the way allows; a car that is faster brakes.
 void window_drive::bound(const route_profile& way, const task& what) {
+  assert(first_ + 1 < what.earliest_s.size());
   const auto count = what.earliest_s.size();
   top_.resize(count);
   for (auto k = count; k-- > 0;) {
@@ -118,8 +120,8 @@ double window_drive::takes_s(std::size_t from_level,
          + (from_level == 0 ? sets_off_s : 0);
 }
 
-void window_drive::take(const task& what, past how, std::size_t place,
-                        std::size_t level, double from_s, double to_s) {
+void window_drive::reach_at(const task& what, past how, std::size_t place,
+                            std::size_t level, double from_s, double to_s) {
   from_s = std::max(from_s, what.earliest_s[place]);
   to_s = std::min(to_s, what.latest_s[place]);
   if (from_s <= to_s)
@@ -143,6 +145,7 @@ void window_drive::reach_first(const task& what) {
   const auto here = begin_mps_ * begin_mps_ / 2 / level_m2ps2;
   const auto lowest = std::max(0.0, here - static_cast<double>(down_));
   const auto highest = std::max(1.0, here + static_cast<double>(up_));
+  assert(lowest <= highest);
   const auto can_stand = here <= static_cast<double>(down_);
   const auto way_m = static_cast<double>(first_) * step_m - begin_m_;
   assert(way_m > 0);
@@ -152,14 +155,15 @@ void window_drive::reach_first(const task& what) {
       continue;
     const auto t = begin_s_ + 2 * way_m / (begin_mps_ + speeds_[l])
                    + (begin_mps_ < hardly_mps ? sets_off_s : 0);
-    take(what, past::rolled, first_, l, t, t);
+    reach_at(what, past::rolled, first_, l, t, t);
     if (l == 0 || (can_stand && l <= up_))
-      take(what, past::stood, first_, l, t, never_s);
+      reach_at(what, past::stood, first_, l, t, never_s);
   }
 }
 
 void window_drive::reach_next(const task& what, std::size_t place,
                               std::size_t level) {
+  assert(place > first_ && level < levels);
   struct {
     double from_s = never_s, to_s = -never_s;
   } all[2];
@@ -176,15 +180,16 @@ void window_drive::reach_next(const task& what, std::size_t place,
       sum.to_s = std::max(sum.to_s, x.to_s + step_s);
     }
   }
+  assert(last < levels);
   auto& [rolled, stood] = all;
   if (level == 0) { // it stands there as long as it likes
     stood.from_s = std::min(rolled.from_s, stood.from_s);
     if (stood.from_s < never_s)
-      take(what, past::stood, place, level, stood.from_s, never_s);
+      reach_at(what, past::stood, place, level, stood.from_s, never_s);
     return;
   }
-  take(what, past::rolled, place, level, rolled.from_s, rolled.to_s);
-  take(what, past::stood, place, level, stood.from_s, stood.to_s);
+  reach_at(what, past::rolled, place, level, rolled.from_s, rolled.to_s);
+  reach_at(what, past::stood, place, level, stood.from_s, stood.to_s);
 }
 
 // -- backwards ----------------------------------------------------------------
@@ -206,6 +211,8 @@ bool window_drive::step_back(std::size_t place, bool comes_late,
   const auto first =
       here.level > up_ ? here.level - up_ : std::size_t{here.level == 0};
   const auto last = std::min(top_[place - 1], here.level + down_);
+  assert(place > first_ && here.level < levels);
+  assert(last < levels);
   auto least_off_s = drive_exact_s;
   auto is_found = false;
   for (auto n = first; n <= last; ++n) {
@@ -231,6 +238,7 @@ bool window_drive::read_back(const task& what, way_motion& out) {
   moment here{};
   if (!find_end(count - 1, here))
     return false;
+  assert(std::isfinite(here.t_s));
   times_s_.resize(parts * (count - 1) + 1);
   for (auto k = count - 1; k > first_; --k) {
     times_s_[parts * k] = here.t_s;
@@ -239,6 +247,7 @@ bool window_drive::read_back(const task& what, way_motion& out) {
     moment before{};
     if (!step_back(k, comes_late, here, before))
       return false;
+    assert(before.t_s <= here.t_s);
     const auto v0 = speeds_[before.level], v1 = speeds_[here.level];
     for (std::size_t i = 1; i < parts; ++i) {
       const auto share = static_cast<double>(i) / static_cast<double>(parts);
@@ -258,6 +267,7 @@ bool window_drive::read_back(const task& what, way_motion& out) {
               here.t_s);
   for (std::size_t i = 1; i < times_s_.size(); ++i)
     times_s_[i] = std::max(times_s_[i], times_s_[i - 1]);
+  assert(times_s_.size() >= 2);
   out = way_motion{what.s_m, times_s_};
   return true;
 }

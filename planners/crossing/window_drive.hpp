@@ -62,8 +62,8 @@ private:
   void reach(const task& what);
   void reach_first(const task& what);
   void reach_next(const task& what, std::size_t place, std::size_t level);
-  void take(const task& what, past how, std::size_t place, std::size_t level,
-            double from_s, double to_s);
+  void reach_at(const task& what, past how, std::size_t place,
+                std::size_t level, double from_s, double to_s);
   double takes_s(std::size_t from_level, std::size_t to_level) const;
   bool read_back(const task& what, way_motion& out);
   bool find_end(std::size_t place, moment& out);

@@ -25,6 +25,13 @@ point axis_of(double heading_rad, const world::path_frame& lane) {
   return cosine * lane.tangent + sine * left;
 }
 
+/// @returns how far a line from the one to the other is beyond the road.
+double beyond_sides_m(const world::route::bounds& road, double rear_d_m,
+                      double front_d_m) {
+  return std::max(std::max(rear_d_m, front_d_m) - road.left_m,
+                  -std::min(rear_d_m, front_d_m) - road.half_width_m);
+}
+
 } // namespace
 
 bool plan_judge::history::add(bool failed) {
@@ -165,9 +172,7 @@ plan_judge::walk plan_judge::follow(const judged_plan& x) const {
     const auto under = path.frame(p.s_m + car_.wheelbase_m);
     const auto front_d_m = cross(under.tangent, front - under.at);
     const auto beyond_m =
-        car_.width_m / 2
-        + std::max(std::max(d_m, front_d_m) - bounds.left_m,
-                   -std::min(d_m, front_d_m) - bounds.half_width_m);
+        car_.width_m / 2 + beyond_sides_m(bounds, d_m, front_d_m);
     found.beside_m = std::max(found.beside_m, std::abs(d_m));
     assert(std::isfinite(beyond_m) && bounds.half_width_m > 0);
     if (at_first_m == boundless) {

@@ -29,6 +29,7 @@ void list_claimed(const world::route& way, double width_m, time_point now,
   for (const auto& [who, drive, is_claimed, front] : told) {
     if (!is_claimed || drive.empty() || drive.to() < now)
       continue;
+    assert(drive.step > duration{});
     for (const auto& stretch : stretches) {
       crossing_user user{never, -never, never,         -never,
                          true,  never,  number_of(who)};

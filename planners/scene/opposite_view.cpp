@@ -42,6 +42,7 @@ void add_if_opposite(const world::route& way, double from_m, double to_m,
       || on.d_m + across_m < bounds.half_width_m + reaches_in_m
       || on.d_m - across_m > bounds.left_m)
     return;
+  assert(along_m > 0 && across_m > 0);
   const auto comes = std::cos(turned_rad) < against_cosine;
   out.push_back({on.s_m - along_m, on.s_m + along_m,
                  comes ? std::max(0.0, x.speed_mps()) : 0.0});
@@ -64,6 +65,7 @@ double opposite_in_sight_m(const world::route& way, point eye, double from_m,
     if (distance_m(eye, middle) > range_m || crosses(eye, middle, hides)
         || (houses && !houses->is_free(eye, middle)))
       return seen_m;
+    assert(next_m > seen_m);
     seen_m = next_m;
   }
 }

@@ -21,6 +21,7 @@ constexpr double straight_rad = 0.35;
 constexpr double looked_at_every_m = 3;
 
 bool is_two_way(const world::route& way, double from_m, double to_m) {
+  assert(from_m <= to_m);
   const auto first_rad = way.path().at(from_m).heading_rad;
   for (auto s = from_m; s <= to_m; s += looked_at_every_m) {
     const auto on = way.closed() ? s : std::clamp(s, 0.0, way.length_m());
@@ -30,11 +31,14 @@ bool is_two_way(const world::route& way, double from_m, double to_m) {
                > straight_rad)
       return false;
   }
+  assert(std::isfinite(first_rad));
   return way.closed() || (from_m >= 0 && to_m <= way.length_m());
 }
 
 /// @returns how long it takes to come so far.
 double takes_s(double way_m, double speed_mps, double limit_mps) {
+  assert(way_m >= 0 && speed_mps >= 0);
+  assert(limit_mps > 0);
   const auto v = std::min(speed_mps, limit_mps);
   const auto until_top_m =
       (limit_mps * limit_mps - v * v) / (2 * overtakes_mps2);

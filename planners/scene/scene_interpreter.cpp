@@ -376,6 +376,8 @@ lead_vehicle scene_interpreter::leading(const own_place& me, const track& x,
 bool scene_interpreter::blocks_alone(
     const own_place& me, const near& where, const footprint& b,
     std::span<const way_stretch> keep_free) const {
+  assert(where.who < seen_ && b.from_m <= b.to_m);
+  assert(params_.sees_opposite_m >= 0);
   const auto& x = others_[where.who].x;
   const auto has_stood = [](const track& t, duration least) {
     return t.stands() && t.at - t.moved >= least;
@@ -402,6 +404,7 @@ bool scene_interpreter::blocks_alone(
 /// @returns whether who comes on the opposite lane leaves time to overtake.
 bool scene_interpreter::has_time(const own_place& me, const near& where,
                                  const footprint& b) {
+  assert(where.who < seen_ && b.from_m <= b.to_m);
   const auto& car = params_.car;
   const auto& x = others_[where.who].x;
   const auto rear_m = me.s_m - car.rear_m, front_m = me.s_m + car.front_m;
@@ -409,6 +412,7 @@ bool scene_interpreter::has_time(const own_place& me, const near& where,
       offset(way_->path().at(me.s_m), (car.front_m - car.rear_m) / 2, me.d_m);
   const auto sees_to_m = opposite_in_sight_m(
       *way_, eye, b.from_m, params_.sees_opposite_m, params_.houses, x.body());
+  assert(sees_to_m >= b.from_m);
   coming_.clear();
   for (std::size_t i = 0; i < seen_; ++i)
     if (i != where.who)

@@ -26,6 +26,7 @@ oriented_box claimed_drive::at(time_point t) const {
   if (k + 1 >= bodies.size())
     return bodies.back();
   const auto share = place - static_cast<double>(k);
+  assert(share >= 0 && share <= 1);
   auto x = bodies[k];
   const auto& next = bodies[k + 1];
   x.centre = x.centre + share * (next.centre - x.centre);
@@ -38,6 +39,7 @@ bool overlap(const claimed_drive& a, const claimed_drive& b, duration apart) {
   if (a.empty() || b.empty() || a.from > b.to() + apart
       || b.from > a.to() + apart)
     return false;
+  assert(a.step > duration{} && b.step > duration{});
   for (auto t = a.from; t <= a.to(); t += compared_every) {
     const auto own = a.at(t);
     const auto last = std::min(t + apart, b.to());

@@ -21,6 +21,8 @@ constexpr auto elsewhere = std::numeric_limits<double>::infinity();
 constexpr double as_told_m = 4, as_told_along_m = 4;
 /// Who stands may say that it sets off; whether it does is seen when it has.
 constexpr double lead_moves_mps = 1;
+/// Who is slower than it says by more brakes for something.
+constexpr double lead_slower_mps = 1;
 /// Who is behind its claim by more does not keep it.
 constexpr double late_m = 3;
 /// Drives are looked for on the own way so far from the car.
@@ -48,6 +50,7 @@ void find_those_who_tell(time_point now, std::span<const told_drive> told,
     if (drive.empty())
       continue;
     const auto body = drive.at(now);
+    assert(drive.step > duration{});
     const auto off_m = [&, who = who, front = front](const other_body& o) {
       if (o.x.station && *o.x.station != who)
         return elsewhere;
@@ -59,6 +62,7 @@ void find_those_who_tell(time_point now, std::span<const told_drive> told,
     const auto nearest = std::ranges::min_element(others, {}, off_m);
     if (nearest == others.end() || off_m(*nearest) > as_told_m)
       continue;
+    assert(!nearest->x.station || *nearest->x.station == who);
     nearest->x.station = who;
     const point ahead{std::cos(body.heading_rad), std::sin(body.heading_rad)};
     nearest->has_claimed =
@@ -81,6 +85,7 @@ void add_claimed(time_point now, const world::route& way, double front_m,
         body.heading_rad - way.path().at(on.s_m).heading_rad;
     return std::abs(on.d_m) < half_m && is_along(std::cos(turned_rad));
   };
+  assert(std::isfinite(front_m));
   std::vector<told_drive> across;
   for (const auto& x : told)
     if (x.is_claimed && !x.drive.empty() && !is_on_way(x.drive.at(now)))
@@ -97,6 +102,7 @@ void add_claimed(time_point now, const world::route& way, double front_m,
 void list_lead(time_point now, const world::route& way,
                const std::optional<lead_vehicle>& lead, double half_m,
                std::span<const told_drive> told, std::vector<way_moment>& out) {
+  assert(half_m > 0);
   out.clear();
   if (!lead || !lead->station)
     return;
@@ -104,12 +110,18 @@ void list_lead(time_point now, const world::route& way,
   if (it == told.end() || it->drive.empty() || it->drive.to() <= now
       || lead->speed_mps < lead_moves_mps)
     return;
+  const auto says_mps = distance_m(it->drive.at(now).centre,
+                                   it->drive.at(now + told_every).centre)
+                        / to_seconds(told_every);
+  if (says_mps > lead->speed_mps + lead_slower_mps)
+    return;
   const auto& line = way.path();
   auto guess_m = lead->rear_s_m;
   const auto off_m =
       guess_m - line.project(rear_of(it->drive.at(now)), guess_m).s_m;
   if (std::abs(off_m) > as_told_along_m)
     return;
+  assert(std::isfinite(off_m));
   for (auto t = now; t <= it->drive.to(); t += told_every) {
     const auto on = line.project(rear_of(it->drive.at(t)), guess_m);
     if (std::abs(on.d_m) > half_m + beside_m)

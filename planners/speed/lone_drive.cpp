@@ -36,6 +36,7 @@ struct energies {
 
   /// Minimises the cost, with what is fixed: one sweep up, one back.
   void solve() {
+    assert(w.size() >= 2 && allowed.size() == w.size());
     constexpr velocity_weights weigh;
     const auto last = w.size() - 1;
     const auto tie = 2 * weigh.accel / step_m;
@@ -54,12 +55,15 @@ struct energies {
       above[k] = next / pivot;
       right[k] = (pull * wanted + tie * right[k - 1]) / pivot;
     }
+    assert(std::isfinite(right[last]));
     w[last] = right[last];
     for (auto k = last; k-- > 1;)
       w[k] = right[k] + above[k] * w[k + 1];
   }
 
   void solve_within() {
+    assert(is_fixed.size() == w.size());
+    assert(std::ranges::all_of(allowed, [](double x) { return x >= 0; }));
     for (auto round = 0; round < most_rounds; ++round) {
       solve();
       auto done = true;
@@ -101,6 +105,7 @@ double lone_drive_s(const route_profile& road, const comfort_limits& style,
   if (ends)
     allowed.back() = 0;
   const auto first = std::min(speed_mps * speed_mps / 2, allowed.front());
+  assert(first >= 0 && steps >= 1);
   energies drive{std::move(allowed), first};
   drive.is_fixed.back() = ends;
   drive.solve_within();

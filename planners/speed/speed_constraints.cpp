@@ -2,6 +2,7 @@
 #include "planners/speed/speed_constraints.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace sofof::planners {
@@ -30,6 +31,7 @@ double speed_constraints::follower::when_s(double way_m) const {
 }
 
 std::optional<double> speed_constraints::promised_s(double way_m) const {
+  assert(std::isfinite(way_m));
   const auto next =
       std::ranges::lower_bound(promised, way_m, {}, &appointment::at_m);
   if (next == promised.end()

@@ -336,9 +336,7 @@ bool spatial_planner::rests_among(const speed_profile& motion,
   });
 }
 
-bool spatial_planner::plan_speed(const scene& at, plan_report& report,
-                                 const ocp::budget& go_on) {
-  assert(!path_->path().empty() && !all_sides_.empty());
+void spatial_planner::list_users(const scene& at) {
   users_.clear();
   for (auto user : at.others.crossings) {
     user.enter_s -= at.age_s;
@@ -346,6 +344,12 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
     if (user.leave_s > 0)
       users_.push_back(user);
   }
+}
+
+bool spatial_planner::plan_speed(const scene& at, plan_report& report,
+                                 const ocp::budget& go_on) {
+  assert(!path_->path().empty() && !all_sides_.empty());
+  list_users(at);
   const auto car = crossing(at);
   const auto way = [this](double s) { return way_from_car(s); };
   const auto when_s = [&](double way_m) {
@@ -378,12 +382,9 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
     told_.follow(at.others.lead_told, at.age_s, style_.front_m, way, t);
     t.stop_m = std::min(t.stop_m, order.stop_m);
     t.stop_m = kept_free_m(t, at);
-    auto result = trial->plan(path_->path(), way_m_, t, go_on);
-    if (trial->motion().empty() && !t.promised.empty()) {
-      t.later_s = speed_constraints::never;
-      report.is_late = true;
-      result = trial->plan(path_->path(), way_m_, t, go_on);
-    }
+    const auto result =
+        in_time_or_late(*trial, path_->path(), way_m_, t, go_on);
+    report.is_late = report.is_late || t.later_s == speed_constraints::never;
     report.iterations += result.report.iterations;
     if (best == nothing_yet)
       report.velocity = result.report.status;
@@ -444,6 +445,8 @@ bool spatial_planner::avoids_crossings() const {
   return std::ranges::none_of(users_, [this](const crossing_user& user) {
     const auto from = way_from_car(user.from_m - style_.front_m);
     const auto to = way_from_car(user.to_m + car_.rear_m);
+    assert(from <= to);
+    assert(!std::isnan(user.enter_s));
     for (std::size_t i = 1; i < kept_.size(); ++i) {
       const auto t = static_cast<double>(i) * style_.step_s;
       if (user.goes_first && t > user.enter_s && t < user.leave_s

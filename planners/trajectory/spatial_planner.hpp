@@ -43,6 +43,7 @@ private:
   void forget();
   bool plan_path(const scene& at, plan_report& report,
                  const ocp::budget& go_on);
+  void list_users(const scene& at);
   bool plan_speed(const scene& at, plan_report& report,
                   const ocp::budget& go_on);
   speed_constraints task(const scene& at);

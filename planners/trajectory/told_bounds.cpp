@@ -2,6 +2,8 @@
 #include "planners/trajectory/told_bounds.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 
 namespace sofof::planners {
 namespace {
@@ -20,6 +22,7 @@ constexpr double rests_within_m = 0.6;
 
 void told_bounds::keep_to(const agreed_drive& agreed, double age_s,
                           const way_from_car& way, speed_constraints& task) {
+  assert(std::isfinite(age_s));
   promised_.clear();
   for (const auto& x : agreed.axle) {
     const auto way_m = way(x.s_m);
@@ -28,6 +31,8 @@ void told_bounds::keep_to(const agreed_drive& agreed, double age_s,
             || way_m > promised_.back().at_m + places_apart_m))
       promised_.push_back({way_m, x.t_s - age_s});
   }
+  assert(std::ranges::is_sorted(promised_, {},
+                                &speed_constraints::appointment::at_m));
   task.promised = promised_;
   task.promised_from_m = way(agreed.binds_from_m);
   task.sooner_s = task.later_s = kept_to_s;
@@ -39,6 +44,7 @@ void told_bounds::keep_to(const agreed_drive& agreed, double age_s,
 void told_bounds::follow(std::span<const way_moment> told, double age_s,
                          double front_m, const way_from_car& way,
                          speed_constraints& task) {
+  assert(std::isfinite(age_s) && front_m >= 0);
   if (told.empty())
     return;
   windows_.clear();
@@ -49,9 +55,22 @@ void told_bounds::follow(std::span<const way_moment> told, double age_s,
       windows_.push_back(
           {way_m, x.t_s - age_s + told_gap_s, speed_constraints::never});
   }
+  assert(windows_.size() <= told.size());
   windows_.insert(windows_.end(), task.windows.begin(), task.windows.end());
   task.windows = windows_;
   task.ahead.reset();
+}
+
+speed_planner::result in_time_or_late(speed_planner& planner,
+                                      const planned_path& path, double way_m,
+                                      speed_constraints& task,
+                                      const ocp::budget& go_on) {
+  assert(std::isfinite(way_m));
+  auto result = planner.plan(path, way_m, task, go_on);
+  if (!planner.motion().empty() || task.promised.empty())
+    return result;
+  task.later_s = speed_constraints::never;
+  return planner.plan(path, way_m, task, go_on);
 }
 
 } // namespace sofof::planners

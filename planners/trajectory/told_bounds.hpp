@@ -3,7 +3,7 @@
 #pragma once
 
 #include "planners/scene/driving_scene.hpp"
-#include "planners/speed/speed_constraints.hpp"
+#include "planners/speed/speed_planner.hpp"
 
 #include <functional>
 #include <span>
@@ -35,5 +35,12 @@ private:
   std::vector<speed_constraints::appointment> promised_;
   std::vector<speed_constraints::window> windows_;
 };
+
+/// Plans within the drive that was promised or, where that is not possible any
+/// more, later: then `later_s` of the task is infinite.
+speed_planner::result in_time_or_late(speed_planner& planner,
+                                      const planned_path& path, double way_m,
+                                      speed_constraints& task,
+                                      const ocp::budget& go_on);
 
 } // namespace sofof::planners

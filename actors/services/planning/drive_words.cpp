@@ -1,10 +1,22 @@
-// What vehicles say of their drives at a crossing, in MCMs.
+// What vehicles say of their ways and drives, in MCMs.
 #include "actors/services/planning/drive_words.hpp"
 
+#include "base/protocol.hpp"
+
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
 namespace sofof::actors {
+
+std::vector<point> authority(const world::route& way, double s_m,
+                             std::optional<double> stop_at_m) {
+  constexpr double least_m = 2; // less has no direction
+  const auto told_m =
+      std::clamp(stop_at_m.value_or(s_m + protocol::authority_m) - s_m, least_m,
+                 protocol::authority_m);
+  return way.waypoints(s_m, told_m, protocol::authority_spacing_m);
+}
 
 planners::claimed_drive drive_of(const messages::decoded_mcm& word,
                                  const messages::geo_frame& earth,

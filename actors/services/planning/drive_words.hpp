@@ -1,12 +1,21 @@
-// What vehicles say of their drives at a crossing, in MCMs.
+// What vehicles say of their ways and drives, in MCMs.
 #pragma once
 
 #include "messages/v2x/mcm/mcm_content.hpp"
 #include "planners/scene/told_drive.hpp"
+#include "world/roads/route.hpp"
 #include "world/vehicle/trajectory.hpp"
 #include "world/vehicle/vehicle.hpp"
 
+#include <optional>
+#include <vector>
+
 namespace sofof::actors {
+
+/// @returns where a vehicle may go: along its route, from its rear axle on, up
+/// to where its front has to wait.
+std::vector<point> authority(const world::route& way, double s_m,
+                             std::optional<double> stop_at_m);
 
 /// @returns the body in time that a planned trajectory is; empty for none.
 planners::claimed_drive drive_of(const messages::decoded_mcm& word,

@@ -1,6 +1,7 @@
 // Planning at a provider: from what vehicles and its own sensors tell it.
 #include "actors/services/planning/mec_planning.hpp"
 
+#include "actors/services/planning/agreed_word.hpp"
 #include "actors/services/planning/plan_cycle.hpp"
 #include "actors/services/planning/plan_request.hpp"
 #include "base/protocol.hpp"
@@ -8,7 +9,6 @@
 #include "messages/v2x/mcm/mcm_content.hpp"
 #include "planners/scene/ego_estimator.hpp"
 #include "world/roads/route_finder.hpp"
-#include "world/roads/unrolled_route.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -44,7 +44,7 @@ public:
     from->others.stop_at_m = stop_at_m_;
     perceived_->tracks(tracks_, station_);
     perceived_->drives(drives_, station_);
-    from->others.agreed = agreed(*from, now);
+    from->others.agreed = agreed_.drive(*from, cycle_->way(), now);
     const auto report =
         cycle_->run(now, planners::made_possible(*from), tracks_, drives_);
     ego_->follow(cycle_->plan());
@@ -74,46 +74,8 @@ private:
       return;
     }
     stop_at_m_ = ahead->to_m;
-    agreed_.reset();
-    if (!word->plan)
-      return;
-    if (word->answer
-        && word->answer->second == messages::etsi::maneuver_response::pending)
-      agreed_ = *word;
-    else
+    if (!agreed_.on_report(*word) && word->plan)
       take_over(*word, ahead->from_m, now);
-  }
-
-  // The drive that it has to keep to at a crossing.
-  std::optional<planners::agreed_drive>
-  agreed(const planners::planning_input& from, time_point now) {
-    if (!agreed_)
-      return std::nullopt;
-    const messages::maneuver_frame frame{world_->where->frame,
-                                         agreed_->reference, agreed_->at};
-    const planners::agreeing_car car{from.s_m, from.speed_mps,
-                                     world_->car.front_m};
-    planners::crossing_view view;
-    view.line_m = line_ahead_m(from.s_m + car.front_m);
-    if (messages::to_trajectory(*agreed_->plan, frame, *cycle_->way(), from.s_m,
-                                nullptr, view.drive)
-        != messages::maneuver_fault::none)
-      return std::nullopt;
-    return planners::agreed(view, now, car);
-  }
-
-  // Where the next crossing begins.
-  double line_ahead_m(double front_m) const {
-    constexpr double look_m = 200;
-    const world::unrolled_route zones{cycle_->way(),
-                                      world_->roads->lanes()->meetings()};
-    auto line_m = front_m + look_m;
-    zones.for_zones(front_m, line_m, [&](const world::zone& z) {
-      if (z.from_m >= front_m)
-        line_m = std::min(line_m, z.from_m);
-      return true;
-    });
-    return line_m;
   }
 
   // Where on which route the vehicle's way ahead is.
@@ -213,7 +175,7 @@ private:
   std::optional<planners::ego_estimator> ego_; // whenever there is a cycle
   double from_m_ = 0;                          // of the last word
   double stop_at_m_ = 0; // the end of the vehicle's authority
-  std::optional<messages::decoded_mcm> agreed_; // has the drive in it
+  agreed_word agreed_{world_};
   std::uint16_t update_ = 0;
   bool has_begun_ = false; // to suggest plans
   // Room that is used again.

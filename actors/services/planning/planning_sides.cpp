@@ -27,17 +27,6 @@ namespace sofof::actors {
 
 namespace {
 
-/// Where the vehicle may go: along its route, from its rear axle on, up to
-/// where its front has to wait.
-std::vector<point> authority(const world::route& way, double s_m,
-                             std::optional<double> stop_at_m) {
-  constexpr double least_m = 2; // less has no direction
-  const auto told_m =
-      std::clamp(stop_at_m.value_or(s_m + protocol::authority_m) - s_m, least_m,
-                 protocol::authority_m);
-  return way.waypoints(s_m, told_m, protocol::authority_spacing_m);
-}
-
 class planning_in_vehicle final : public offloading::vehicle_service {
 public:
   planning_in_vehicle(planning_world_ptr world,
