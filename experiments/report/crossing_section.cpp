@@ -15,7 +15,7 @@ namespace sofof::experiments::report {
 
 namespace {
 
-constexpr auto gap = std::numeric_limits<double>::quiet_NaN();
+constexpr auto bar_gap = std::numeric_limits<double>::quiet_NaN();
 /// Lanes are 1 apart.
 constexpr auto higher = 0.15, given_up_higher = 0.5;
 
@@ -40,7 +40,7 @@ struct bars {
   void add(const claim_line& x, double level) {
     for (const auto& [t_s, y] :
          {std::pair{x.enters_s, level}, std::pair{x.leaves_s, level},
-          std::pair{x.leaves_s, gap}}) {
+          std::pair{x.leaves_s, bar_gap}}) {
       shown.x.push_back(t_s);
       shown.y.push_back(y);
       shown.stations.push_back(static_cast<double>(x.station));

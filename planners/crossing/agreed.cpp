@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t while_points = 4;
 constexpr double waits_below_mps = 0.15;
 /// Places so near to each other are one.
-constexpr double same_place_m = 0.3, next_place_m = 0.05;
+constexpr double same_wait_m = 0.3, next_place_m = 0.05;
 /// A place is ahead, or the car is on it; who is slower than this stands there.
 constexpr double here_m = 0.7, behind_m = 0.5, stands_mps = 0.3;
 /// Who sets off so soon does not wait.
@@ -24,7 +24,7 @@ constexpr double on_it_m = 0.5;
 constexpr double counts_before_line_m = 2;
 
 /// How who drives as it was told stops at its line: it decides, then brakes.
-constexpr double stops_mps2 = 2.5, decides_s = 0.5, spare_m = 1;
+constexpr double agreed_stops_mps2 = 2.5, decides_s = 0.5, agreed_spare_m = 1;
 /// It stops there with its front beyond the line by so much at most.
 constexpr double beyond_line_m = 0.3;
 
@@ -46,7 +46,7 @@ std::optional<waiting> next_wait(const world::trajectory& drive, double since_s,
         last.s_m - first.s_m > waits_below_mps * (last.t_s - first.t_s);
     if (first.s_m < car.s_m - here_m || rolls)
       continue;
-    if (found && first.s_m > found->at_m + same_place_m)
+    if (found && first.s_m > found->at_m + same_wait_m)
       break;
     found = {first.s_m, since_s + last.t_s};
   }
@@ -87,7 +87,8 @@ std::optional<double> waiting_line_m(const crossing_view& with,
   assert(car.speed_mps >= 0);
   const auto left_m = with.line_m - car.s_m - car.front_m;
   const auto v = car.speed_mps;
-  const auto stopping_m = v * (decides_s + v / (2 * stops_mps2)) + spare_m;
+  const auto stopping_m =
+      v * (decides_s + v / (2 * agreed_stops_mps2)) + agreed_spare_m;
   if (with.binds || with.drive.empty() || left_m <= 0 || left_m > stopping_m)
     return std::nullopt;
   return with.line_m + beyond_line_m;

@@ -26,7 +26,7 @@ constexpr std::size_t harder = 3;
 /// A drive may be out by so much where the times between are not reached.
 constexpr double drive_exact_s = 1;
 
-constexpr auto parts =
+constexpr auto parts_in_step =
     static_cast<std::size_t>(window_drive::step_m / way_motion::step_m);
 
 std::size_t levels_in_step(double accel_mps2) {
@@ -239,9 +239,9 @@ bool window_drive::read_back(const task& what, way_motion& out) {
   if (!find_end(count - 1, here))
     return false;
   assert(std::isfinite(here.t_s));
-  times_s_.resize(parts * (count - 1) + 1);
+  times_s_.resize(parts_in_step * (count - 1) + 1);
   for (auto k = count - 1; k > first_; --k) {
-    times_s_[parts * k] = here.t_s;
+    times_s_[parts_in_step * k] = here.t_s;
     const auto comes_late =
         what.s_m + static_cast<double>(k) * step_m < what.line_m;
     moment before{};
@@ -249,18 +249,19 @@ bool window_drive::read_back(const task& what, way_motion& out) {
       return false;
     assert(before.t_s <= here.t_s);
     const auto v0 = speeds_[before.level], v1 = speeds_[here.level];
-    for (std::size_t i = 1; i < parts; ++i) {
-      const auto share = static_cast<double>(i) / static_cast<double>(parts);
+    for (std::size_t i = 1; i < parts_in_step; ++i) {
+      const auto share =
+          static_cast<double>(i) / static_cast<double>(parts_in_step);
       const auto v = std::sqrt(std::lerp(v0 * v0, v1 * v1, share));
-      times_s_[parts * (k - 1) + i] = before.t_s
-                                      + (before.level == 0 ? sets_off_s : 0)
-                                      + 2 * share * step_m / (v0 + v);
+      times_s_[parts_in_step * (k - 1) + i] =
+          before.t_s + (before.level == 0 ? sets_off_s : 0)
+          + 2 * share * step_m / (v0 + v);
     }
     here = before;
     if (here.level == 0) // it stands there since it came
       here.t_s = std::min<double>(here.t_s, at(past::stood, k - 1, 0).from_s);
   }
-  times_s_[parts * first_] = here.t_s;
+  times_s_[parts_in_step * first_] = here.t_s;
   const auto way_m = static_cast<double>(first_) * step_m - begin_m_;
   const auto last_mps = begin_mps_ + speeds_[here.level];
   write_first(last_mps > 0 ? here.t_s - 2 * way_m / last_mps : here.t_s,
@@ -276,7 +277,7 @@ bool window_drive::read_back(const task& what, way_motion& out) {
 void window_drive::write_first(double goes_s, double left_s) {
   const auto way_m = static_cast<double>(first_) * step_m - begin_m_;
   times_s_[0] = 0;
-  for (std::size_t i = 1; i < parts * first_; ++i) {
+  for (std::size_t i = 1; i < parts_in_step * first_; ++i) {
     const auto at_m = static_cast<double>(i) * way_motion::step_m;
     times_s_[i] = i <= fade_s_.size()
                       ? fade_s_[i - 1]

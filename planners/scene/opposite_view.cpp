@@ -9,7 +9,7 @@
 namespace sofof::planners {
 namespace {
 
-constexpr double step_m = 4, sight_step_m = 2;
+constexpr double opposite_step_m = 4, sight_step_m = 2;
 /// Who reaches so far into the opposite lane is on it.
 constexpr double reaches_in_m = 0.3;
 /// Headings against the own one to within 60° are those of who comes.
@@ -19,7 +19,7 @@ constexpr double against_cosine = -0.5;
 double nearest_m(const world::route& way, double from_m, double to_m, point p) {
   auto nearest = from_m;
   auto least = std::numeric_limits<double>::infinity();
-  for (auto s = from_m; s <= to_m; s += step_m)
+  for (auto s = from_m; s <= to_m; s += opposite_step_m)
     if (const auto away_m = distance_m(way.path().at(s).at, p); away_m < least)
       least = away_m, nearest = s;
   return nearest;
@@ -31,7 +31,7 @@ void add_if_opposite(const world::route& way, double from_m, double to_m,
                      const track& x, std::vector<oncoming_body>& out) {
   assert(from_m <= to_m && x.length_m > 0);
   const auto guess_m = nearest_m(way, from_m, to_m, x.centre());
-  const auto on = way.path().project(x.centre(), guess_m, 2 * step_m);
+  const auto on = way.path().project(x.centre(), guess_m, 2 * opposite_step_m);
   const auto turned_rad = x.heading_rad - way.path().at(on.s_m).heading_rad;
   const auto c = std::abs(std::cos(turned_rad));
   const auto s = std::abs(std::sin(turned_rad));

@@ -15,7 +15,7 @@ constexpr double overtakes_mps2 = 1.2, thinks_s = 0.5;
 constexpr double spare_s = 2.5, spare_of_unseen_s = 1.0, spare_begun_s = 1.0;
 /// Who is not seen yet drives so much above the limit.
 constexpr double speeding = 1.1;
-constexpr double stands_mps = 0.3;
+constexpr double oncoming_stands_mps = 0.3;
 /// The way is straight if it turns less than this, rad.
 constexpr double straight_rad = 0.35;
 constexpr double looked_at_every_m = 3;
@@ -68,7 +68,7 @@ bool has_time_to_overtake(const world::route& way, const overtaking_car& car,
     assert(x.front_m <= x.rear_m && x.speed_mps >= 0);
     if (x.rear_m < begins_m)
       return true; // it has passed
-    if (x.speed_mps < stands_mps)
+    if (x.speed_mps < oncoming_stands_mps)
       return x.front_m > ends_m;
     return (x.front_m - ends_m) / x.speed_mps
            > own_s + (car.has_begun ? spare_begun_s : spare_s);

@@ -28,7 +28,7 @@ constexpr double late_m = 3;
 /// Drives are looked for on the own way so far from the car.
 constexpr double own_way_m = 200;
 /// A lead is on the own way if it is not farther from it than a car by this.
-constexpr double beside_m = 1;
+constexpr double lead_beside_m = 1;
 constexpr double moves_m = 0.2;
 constexpr duration told_every = std::chrono::milliseconds{200};
 
@@ -124,7 +124,7 @@ void list_lead(time_point now, const world::route& way,
   assert(std::isfinite(off_m));
   for (auto t = now; t <= it->drive.to(); t += told_every) {
     const auto on = line.project(rear_of(it->drive.at(t)), guess_m);
-    if (std::abs(on.d_m) > half_m + beside_m)
+    if (std::abs(on.d_m) > half_m + lead_beside_m)
       break; // it turns off
     if (out.empty() || on.s_m + off_m > out.back().s_m + moves_m)
       out.push_back({on.s_m + off_m, to_seconds(t - now)});

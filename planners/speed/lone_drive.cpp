@@ -12,13 +12,13 @@
 namespace sofof::planners {
 namespace {
 
-constexpr double step_m = 1;
+constexpr double lone_step_m = 1;
 /// What lies beyond this does not matter to a car.
 constexpr double look_ahead_m = 200;
-constexpr double rests_below_mps = 0.1;
-constexpr double least_wanted_m2ps2 = 0.125;
+constexpr double lone_rests_below_mps = 0.1;
+constexpr double lone_least_wanted_m2ps2 = 0.125;
 /// A planner stops so far before an end.
-constexpr double line_gap_m = 0.3;
+constexpr double lone_line_gap_m = 0.3;
 /// Places at the envelope are found round by round.
 constexpr int most_rounds = 12;
 constexpr double excess_m2ps2 = 1e-3;
@@ -39,7 +39,7 @@ struct energies {
     assert(w.size() >= 2 && allowed.size() == w.size());
     constexpr velocity_weights weigh;
     const auto last = w.size() - 1;
-    const auto tie = 2 * weigh.accel / step_m;
+    const auto tie = 2 * weigh.accel / lone_step_m;
     above[0] = 0;
     right[0] = w[0];
     for (std::size_t k = 1; k <= last; ++k) {
@@ -48,8 +48,8 @@ struct energies {
         right[k] = allowed[k];
         continue;
       }
-      const auto wanted = std::max(allowed[k], least_wanted_m2ps2);
-      const auto pull = weigh.speed * step_m / wanted;
+      const auto wanted = std::max(allowed[k], lone_least_wanted_m2ps2);
+      const auto pull = weigh.speed * lone_step_m / wanted;
       const auto next = k < last ? tie : 0.0;
       const auto pivot = pull + next + tie * (1 - above[k - 1]);
       above[k] = next / pivot;
@@ -90,16 +90,16 @@ double lone_drive_s(const route_profile& road, const comfort_limits& style,
                     double from_m, double speed_mps, double to_m) {
   assert(speed_mps >= 0 && to_m >= from_m && std::isfinite(to_m));
   const auto& way = road.line.way();
-  const auto end_m = way.length_m() - style.front_m - line_gap_m;
+  const auto end_m = way.length_m() - style.front_m - lone_line_gap_m;
   const auto ends = !way.closed() && to_m + look_ahead_m > end_m;
   const auto last_m =
-      ends ? std::max(end_m, from_m + step_m) : to_m + look_ahead_m;
+      ends ? std::max(end_m, from_m + lone_step_m) : to_m + look_ahead_m;
   const auto steps =
-      static_cast<std::size_t>(std::ceil((last_m - from_m) / step_m));
+      static_cast<std::size_t>(std::ceil((last_m - from_m) / lone_step_m));
   std::vector<double> allowed(steps + 1);
   for (std::size_t k = 0; k <= steps; ++k) {
     const auto limit =
-        road.envelope.limit_mps(from_m + static_cast<double>(k) * step_m);
+        road.envelope.limit_mps(from_m + static_cast<double>(k) * lone_step_m);
     allowed[k] = limit * limit / 2;
   }
   if (ends)
@@ -110,20 +110,21 @@ double lone_drive_s(const route_profile& road, const comfort_limits& style,
   drive.is_fixed.back() = ends;
   drive.solve_within();
 
-  auto takes_s = speed_mps < rests_below_mps
+  auto takes_s = speed_mps < lone_rests_below_mps
                      ? built_up_s(style.max_accel_mps2, style.max_jerk_mps3)
                      : 0.0;
   const auto speed = [&](std::size_t k) {
     return std::sqrt(2 * std::max(0.0, drive.w[k]));
   };
   for (std::size_t k = 0; k < steps; ++k) {
-    const auto way_m =
-        std::min(step_m, to_m - from_m - static_cast<double>(k) * step_m);
+    const auto way_m = std::min(
+        lone_step_m, to_m - from_m - static_cast<double>(k) * lone_step_m);
     if (way_m <= 0)
       break;
-    takes_s += way_m / std::max((speed(k) + speed(k + 1)) / 2, rests_below_mps);
+    takes_s +=
+        way_m / std::max((speed(k) + speed(k + 1)) / 2, lone_rests_below_mps);
   }
-  if (ends && to_m >= end_m - step_m)
+  if (ends && to_m >= end_m - lone_step_m)
     takes_s += built_up_s(style.comfort_decel_mps2, style.max_jerk_mps3);
   return takes_s;
 }

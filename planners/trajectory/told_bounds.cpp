@@ -12,7 +12,7 @@ constexpr double kept_to_s = 0.25;
 constexpr double told_gap_s = 1.0, told_gap_m = 2.5;
 
 /// Places that are nearer to the car, or to each other, say nothing new.
-constexpr double next_place_m = 0.3, places_apart_m = 0.2;
+constexpr double next_bound_m = 0.3, places_apart_m = 0.2;
 constexpr double told_apart_m = 1.0;
 
 /// Where a car waits it may stop with its axle so much farther on.
@@ -26,7 +26,7 @@ void told_bounds::keep_to(const agreed_drive& agreed, double age_s,
   promised_.clear();
   for (const auto& x : agreed.axle) {
     const auto way_m = way(x.s_m);
-    if (way_m > next_place_m
+    if (way_m > next_bound_m
         && (promised_.empty()
             || way_m > promised_.back().at_m + places_apart_m))
       promised_.push_back({way_m, x.t_s - age_s});
