@@ -53,6 +53,7 @@ public:
   }
 
 private:
+  // `in` is called before any vehicle is spawned, and clients only read.
   crossing_world_ptr shared_in(const service_world& world) const {
     if (!here_ || here_->streets != world.streets)
       here_ = std::make_shared<const crossing_world>(

@@ -133,7 +133,7 @@ struct trip_record {
 struct claim_record {
   station_id station = 0;
   std::string lane{}; ///< By which it came.
-  time_point claimed; ///< When it claimed first.
+  time_point claimed; ///< When it did.
   std::optional<time_point>
       bound;                 ///< When nobody else could claim it any more.
   time_point enters, leaves; ///< The crossing, as claimed.

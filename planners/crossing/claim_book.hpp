@@ -17,7 +17,8 @@ namespace sofof::planners {
 /// was generated after it was made (by more than clocks may differ), and none
 /// of them claims what overlaps. All messages of a vehicle tell what it claims.
 /// So of two overlapping claims at most one binds, whatever is lost, late or
-/// out of order, and whoever proposed them: be one made at a, the other at
+/// out of order, and whoever proposed them, as long as each vehicle hears each
+/// other one that matters once in `memory`: be one made at a, the other at
 /// b >= a. For the latter to bind, a message of the first vehicle generated
 /// after b is needed, and that one tells of the claim made at a, or it is given
 /// up. (Two flags, as Dekker's; in Raynal, Concurrent Programming, 2013,

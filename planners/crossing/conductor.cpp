@@ -259,6 +259,8 @@ bool conductor::drive_all(std::span<const std::size_t> order,
   for (std::size_t i = 0; i < cars_.size(); ++i)
     if (cars_[i].is_fixed)
       before.push_back(i);
+  for (const auto i : free_)
+    cars_[i].motion = {};
   order_.clear();
   for (const auto n : order) {
     auto& x = cars_[free_[n]];

@@ -29,8 +29,9 @@ struct crossing_advice {
 
 /// Plans all vehicles at a crossing together: a search for the order that
 /// delays them least, then one drive after the other in this order, within what
-/// those before it leave free. All new drives are taken, or none: then those
-/// that were told so far stay, and others come after them. Deterministic.
+/// those before it leave free. Where that is not possible for all, what was
+/// told so far stays, and others come after that, as far as they can.
+/// Deterministic.
 class conductor {
 public:
   conductor(crossing_ways ways, const conducting& how);

@@ -162,6 +162,9 @@ void crossing_member::claim(time_point now, const world::trajectory& drive) {
   if (!at || has_left || done_m_ == own_.line_m || !is_kept(now, drive)
       || (*at - now > rules_.claims_before && can_stop()))
     return;
+  const auto leaves = time_at(drive, own_.clear_m + car_.rear_m);
+  if (!leaves || *leaves - now > rules_.told)
+    return; // others would hear a part of it
   const auto claim = claim_of(drive);
   if (claim.empty() || !book_.claim(now, claim, {}))
     return;
@@ -169,9 +172,7 @@ void crossing_member::claim(time_point now, const world::trajectory& drive) {
   claimed_ = drive;
   claimed_line_m_ = own_.line_m;
   claimed_clear_m_ = own_.clear_m;
-  present_ = {now, std::nullopt, *at,
-              time_at(drive, own_.clear_m + car_.rear_m).value_or(drive.end()),
-              false};
+  present_ = {now, std::nullopt, *at, *leaves, false};
   follow_claim(now);
 }
 

@@ -55,13 +55,6 @@ double way_motion::place_m(double at_s) const {
   return from_m_ + step_m * (static_cast<double>(i) + share);
 }
 
-way_motion way_motion::later(double by_s) const {
-  auto x = *this;
-  for (auto& t : x.times_s_)
-    t += by_s;
-  return x;
-}
-
 way_motion drive_freely(const route_profile& way,
                         const free_drive_limits& limits, double s_m,
                         double speed_mps, double to_m) {

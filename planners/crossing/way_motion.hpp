@@ -27,15 +27,13 @@ public:
   }
 
   /// @returns when its middle is at a place, s; beyond the end as fast as
-  /// there, before the begin as if it had come as fast as there. Not empty.
+  /// there, before the begin as if it had come as fast as there, at 1 m/s at
+  /// least. Not empty.
   double time_s(double at_m) const;
 
   /// @returns where its middle is at a time; before it begins and after it ends
   /// as there.
   double place_m(double at_s) const;
-
-  /// @returns the same motion, later.
-  way_motion later(double by_s) const;
 
 private:
   double from_m_ = 0;

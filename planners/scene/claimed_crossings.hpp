@@ -11,7 +11,7 @@
 namespace sofof::planners {
 
 /// @param way        The own route.
-/// @param own_m      Length and width of the own body, with what is to be kept.
+/// @param width_m    Of the own body, with what is to be kept.
 /// @param stretches  Of the own way, where others cross.
 /// @param out        Gets one entry for each drive and stretch in which bodies
 ///                   would touch.

@@ -11,11 +11,8 @@ namespace {
 /// What a plan that was made before may come closer still.
 constexpr double slack_m = 0.1;
 
-} // namespace
-
-namespace {
-
-/// How a promise is kept later than this, s, is planned anew until then.
+/// Promised times later than this, s, are not checked: until then plans are
+/// made anew.
 constexpr double until_anew_s = 5;
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "actors/services/planning/drive_words.hpp"
 #include "actors/services/planning/plan_request.hpp"
 #include "actors/simulation/driven_car.hpp"
+#include "base/protocol.hpp"
 #include "messages/v2x/encoded.hpp"
 #include "planners/crossing/crossing_member.hpp"
 #include "planners/crossing/crossing_ways.hpp"
@@ -105,7 +106,7 @@ struct crossing_driver_state {
       return;
     const auto t = now(self);
     const auto said = messages::read_word(word, *world->where, t);
-    if (!said)
+    if (!said || protocol::is_of_future(said->at, t))
       return;
     auto drive = drive_of(*said, world->where->frame, world->car);
     planners::crossing_claim claim{said->from, said->at, std::nullopt};

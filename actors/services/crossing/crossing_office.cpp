@@ -33,6 +33,8 @@ void crossing_office::on_cam(const messages::cam& c, sender_id) {
   if (protocol::is_of_future(c.at, clock_()))
     return;
   const std::lock_guard lock{mutex_};
+  if (heard_.size() >= most_heard)
+    forget_silent(clock_());
   if (heard_.size() >= most_heard && !heard_.contains(c.station))
     return;
   auto& x = heard_[c.station];
@@ -44,11 +46,10 @@ void crossing_office::on_word(const messages::decoded_mcm& word, sender_id) {
   if (protocol::is_of_future(word.at, clock_()))
     return;
   const std::lock_guard lock{mutex_};
-  if (heard_.size() >= most_heard && !heard_.contains(word.from))
-    return;
-  auto& x = heard_[word.from];
-  if (!x.word || x.word->at < word.at)
-    x.word = word;
+  const auto x = heard_.find(word.from);
+  if (x != heard_.end() // it has sent a CAM
+      && (!x->second.word || x->second.word->at < word.at))
+    x->second.word = word;
 }
 
 world::trajectory crossing_office::advise(time_point now, station_id who) {
@@ -106,11 +107,15 @@ world::trajectory crossing_office::plan_of(const heard& x) const {
   return plan;
 }
 
-void crossing_office::plan(time_point now) {
-  planned_ = now;
+void crossing_office::forget_silent(time_point now) {
   std::erase_if(heard_, [now](const auto& x) {
     return now - x.second.newest.at > protocol::cam_timeout;
   });
+}
+
+void crossing_office::plan(time_point now) {
+  planned_ = now;
+  forget_silent(now);
   std::vector<planners::approaching_car> cars;
   for (auto& [who, x] : heard_) {
     if (!place(x)) {

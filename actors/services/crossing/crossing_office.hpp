@@ -40,6 +40,7 @@ private:
     planners::route_profile_ptr way;
     double s_m = 0;
   };
+  void forget_silent(time_point now);
   void plan(time_point now);
   bool place(heard& x) const;
   world::trajectory plan_of(const heard& x) const;

@@ -108,7 +108,7 @@ public:
         provider_.position,
         station_,
         {static_cast<std::uint16_t>(input.session.counter), ++update_}};
-    const auto rest = shortened(world::rest_of(drive, now));
+    const auto rest = told_rest(drive, now);
     if (rest.points.size() < fewest_points
         || !messages::make_suggestion(what, rest, *world_->where, waypoints_,
                                       said_))
@@ -122,14 +122,6 @@ public:
 private:
   /// What is left of a drive is not worth saying: it has left the crossing.
   static constexpr std::size_t fewest_points = 6;
-
-  /// MCMs have room for so much.
-  static world::trajectory shortened(world::trajectory drive) {
-    constexpr std::size_t most = 240; // 24 s
-    if (drive.points.size() > most)
-      drive.points.resize(most);
-    return drive;
-  }
 
   crossing_world_ptr world_;
   offloading::provider_context provider_;

@@ -42,10 +42,9 @@ planners::claimed_drive drive_of(const messages::decoded_mcm& word,
 }
 
 world::trajectory told_rest(const world::trajectory& drive, time_point now) {
-  constexpr std::size_t most = 200;
+  constexpr double told_s = 20;
   auto left = world::rest_of(drive, now);
-  if (left.points.size() > most)
-    left.points.resize(most);
+  std::erase_if(left.points, [](const auto& p) { return p.t_s > told_s; });
   if (left.points.size() < 2)
     left.points.clear();
   return left;

@@ -76,9 +76,11 @@ void edge_perception::on_objects(const messages::object_list& told,
 }
 
 void edge_perception::on_word(const messages::decoded_mcm& word, sender_id) {
-  if (!where_ || protocol::is_of_future(word.at, clock_()))
+  const auto now = clock_();
+  if (!where_ || protocol::is_of_future(word.at, now))
     return;
   const std::lock_guard lock{mutex_};
+  forget_silent(now);
   if (said_.size() >= most_stations && !said_.contains(word.from))
     return;
   auto& known = said_[word.from];
@@ -90,9 +92,10 @@ void edge_perception::on_word(const messages::decoded_mcm& word, sender_id) {
 void edge_perception::drives(std::vector<planners::told_drive>& out,
                              station_id station) {
   out.clear();
+  const auto now = clock_();
   const std::lock_guard lock{mutex_};
   for (const auto& [who, x] : said_)
-    if (who != station)
+    if (who != station && now - x.at <= protocol::cam_timeout)
       out.push_back({who, x.drive, x.is_claimed, x.front});
 }
 

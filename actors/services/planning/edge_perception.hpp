@@ -21,8 +21,9 @@ namespace sofof::actors {
 /// forward in it as in a car of ours.
 world::perceived_object body_of(const messages::cam& c);
 
-/// What is told of later than now is not believed, nor is what `plausibility`
-/// doubts.
+/// What is told of later than now is not believed, nor are bodies that
+/// `plausibility` doubts. What vehicles say of their drives is taken as it is:
+/// it closes places, and moves nobody.
 class edge_perception final : public broadcast_listener {
 public:
   /// @param houses  Of the map; they hide what is behind them.
