@@ -445,8 +445,6 @@ bool spatial_planner::avoids_crossings() const {
   return std::ranges::none_of(users_, [this](const crossing_user& user) {
     const auto from = way_from_car(user.from_m - style_.front_m);
     const auto to = way_from_car(user.to_m + car_.rear_m);
-    assert(from <= to);
-    assert(!std::isnan(user.enter_s));
     for (std::size_t i = 1; i < kept_.size(); ++i) {
       const auto t = static_cast<double>(i) * style_.step_s;
       if (user.goes_first && t > user.enter_s && t < user.leave_s
