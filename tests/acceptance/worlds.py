@@ -403,6 +403,25 @@ workers = {rng.choice([4, 16])}
 """
 
 
+def scenario(rng, name, duration_s, perceived, tables):
+    """The text of one, in seven of ten cases with a server."""
+    server = network(rng, duration_s) if rng.random() < 0.7 else ""
+    head = f"""name = "{name}"
+duration = "{duration_s}s"
+seed = {rng.randint(1, 999)}
+map = "map.toml"
+[traffic]
+crossings = "{'perceived' if perceived else 'granted'}"
+"""
+    tail = """[[service]]
+name = "trajectory_planning"
+[record]
+cycles = false
+tracks_period = "200ms"
+"""
+    return "".join([head, *tables, server, tail])
+
+
 def fair(number, duration_s=180):
     """A world's map and scenario; the latter names the former `map.toml`."""
     rng = random.Random(f"fair {number}")
@@ -424,21 +443,8 @@ heading_noise_rad = {noise_rad}
 field_of_view_deg = {field_deg}
 """
     obstacles = bodies(rng, streets, starts, range_m)
-    server = network(rng, duration_s) if rng.random() < 0.7 else ""
-    head = f"""name = "fair {number}"
-duration = "{duration_s}s"
-seed = {rng.randint(1, 999)}
-map = "map.toml"
-[traffic]
-crossings = "{'perceived' if perceived else 'granted'}"
-"""
-    tail = """[[service]]
-name = "trajectory_planning"
-[record]
-cycles = false
-tracks_period = "200ms"
-"""
-    return streets, "".join([head, *fleets, noise, *obstacles, server, tail])
+    return streets, scenario(rng, f"fair {number}", duration_s, perceived,
+                             [*fleets, noise, *obstacles])
 
 
 def narrow(room_m, noise_m, at_server, seed):
@@ -578,20 +584,7 @@ heading_noise_rad = {rng.choice([0.01, 0.05, 0.1])}
 field_of_view_deg = {rng.choice([360.0, 360.0, 180.0, 120.0])}
 """
     obstacles = bodies(rng, streets, starts, 100)
-    server = network(rng, duration_s) if rng.random() < 0.7 else ""
-    head = f"""name = "hostile {number}"
-duration = "{duration_s}s"
-seed = {rng.randint(1, 999)}
-map = "map.toml"
-[traffic]
-crossings = "{'perceived' if perceived else 'granted'}"
-"""
-    tail = """[[service]]
-name = "trajectory_planning"
-[record]
-cycles = false
-tracks_period = "200ms"
-"""
-    return streets, "".join([head, *fleets, noise, *obstacles, server, tail]), \
+    return streets, scenario(rng, f"hostile {number}", duration_s, perceived,
+                             [*fleets, noise, *obstacles]), \
         fair_start and range_m >= 20
 
