@@ -1,6 +1,8 @@
 // What a car sees of the lane opposite its own.
 #include "planners/scene/opposite_view.hpp"
 
+#include "planners/scene/corridor.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -12,6 +14,11 @@ namespace {
 constexpr double opposite_step_m = 4, sight_step_m = 2;
 /// Who reaches so far into the opposite lane is on it.
 constexpr double reaches_in_m = 0.3;
+/// Who looks past a body is so far left of its edge, over the middle of the
+/// street by so much at most, and has come there so far before it stops.
+constexpr double past_edge_m = 0.1, over_middle_m = 0.25, shifted_m = 6;
+/// Less is not worth steering.
+constexpr double least_shift_m = 0.1;
 /// Headings against the own one to within 60° are those of who comes.
 constexpr double against_cosine = -0.5;
 
@@ -68,6 +75,22 @@ double opposite_in_sight_m(const world::route& way, point eye, double from_m,
     assert(next_m > seen_m);
     seen_m = next_m;
   }
+}
+
+std::optional<lane_obstacle> look_past(double body_left_m, double rests_m,
+                                       double half_lane_m,
+                                       const world::vehicle_params& car) {
+  assert(half_lane_m > 0 && car.width_m > 0);
+  const auto middle_m = std::min(body_left_m + past_edge_m,
+                                 half_lane_m + over_middle_m - car.width_m / 2);
+  if (middle_m < least_shift_m)
+    return std::nullopt;
+  // The least that leaves a car room beside it there, and no more.
+  const auto right_m = middle_m - (corridor::room_beside_m - car.width_m / 2);
+  const auto room_m = corridor::room_beside_m + right_m + 2 * least_shift_m;
+  return lane_obstacle{
+      rests_m - car.front_m - shifted_m,  rests_m, -half_lane_m, right_m, 0, 0,
+      std::max(0.0, room_m - half_lane_m)};
 }
 
 } // namespace sofof::planners

@@ -1,11 +1,14 @@
 // What a car sees of the lane opposite its own.
 #pragma once
 
+#include "planners/scene/driving_scene.hpp"
 #include "planners/scene/line_of_sight.hpp"
 #include "planners/scene/overtaking.hpp"
 #include "planners/scene/track.hpp"
 #include "world/roads/route.hpp"
+#include "world/vehicle/vehicle.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,5 +29,15 @@ void add_if_opposite(const world::route& way, double from_m, double to_m,
 double opposite_in_sight_m(const world::route& way, point eye, double from_m,
                            double range_m, const line_of_sight* houses,
                            const oriented_box& hides);
+
+/// Where a car waits behind a body, it stands so far left that it sees past it,
+/// as far as who comes has room.
+/// @param body_left_m  How far left the body reaches; left positive.
+/// @param rests_m      The car's front comes no farther, arc length.
+/// @returns what keeps it there, as a body that is passed on the left; nullopt:
+/// it sees past it as it is.
+std::optional<lane_obstacle> look_past(double body_left_m, double rests_m,
+                                       double half_lane_m,
+                                       const world::vehicle_params& car);
 
 } // namespace sofof::planners

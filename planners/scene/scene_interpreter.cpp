@@ -18,13 +18,6 @@ namespace {
 /// Coarse samples of the way, m.
 constexpr auto coarse_m = 4.0;
 
-/// Outlines are measured at points this far apart at most, m: a side between
-/// two of them bulges less than 7 cm into a lane that bends with 12 m radius.
-constexpr auto outline_m = 2.6;
-
-/// Curvature changes by no more than this beneath a car, 1/m.
-constexpr auto curvature_change_1pm = 0.05;
-
 /// Of sums of widths.
 constexpr auto rounding_m = 1e-6;
 /// A body that was passable stays so with so much less room.
@@ -253,65 +246,12 @@ void scene_interpreter::find_near(const own_place& me) {
   });
 }
 
-/// Measures a body from the way.
-/// @returns nothing when it stays out of the lane and the way of the car.
-std::optional<scene_interpreter::footprint>
-scene_interpreter::measure(const track& x, double guess_m) const {
-  const auto& line = way_->path();
-  const auto on = line.project(x.centre(), guess_m, bead_m_);
-  const auto here = line.at(on.s_m);
-  const auto turned_rad = x.heading_rad - here.heading_rad;
-  const auto c = std::cos(turned_rad), s = std::sin(turned_rad);
-  footprint print{infinity,
-                  -infinity,
-                  infinity,
-                  -infinity,
-                  c,
-                  x.speed_along_mps(here.heading_rad),
-                  way_->half_width_m(on.s_m)};
-
-  // Most stay in their own lanes, by far.
-  const auto wide_m = std::max(print.half_lane_m, corridor_m());
-  const auto bulge_m = (std::abs(here.curvature_1pm) + curvature_change_1pm)
-                       * (x.length_m * x.length_m + x.width_m * x.width_m) / 4;
-  const auto across_m =
-      (std::abs(s) * x.length_m + std::abs(c) * x.width_m) / 2;
-  if (std::abs(on.d_m) - across_m - bulge_m > wide_m)
-    return {};
-
-  const auto stretch = 1 / std::max(0.2, 1 - here.curvature_1pm * on.d_m);
-  const point ahead{std::cos(x.heading_rad), std::sin(x.heading_rad)};
-  const point left{-ahead.y_m, ahead.x_m};
-  const auto add = [&](double along_m, double left_m) {
-    const auto guess_m = on.s_m + stretch * (c * along_m - s * left_m);
-    const auto p = line.project(x.centre() + along_m * ahead + left_m * left,
-                                guess_m, bead_m_);
-    print.from_m = std::min(print.from_m, p.s_m);
-    print.to_m = std::max(print.to_m, p.s_m);
-    print.low_m = std::min(print.low_m, p.d_m);
-    print.high_m = std::max(print.high_m, p.d_m);
-  };
-  const auto pieces_along = std::ceil(x.length_m / outline_m);
-  const auto pieces_across = std::ceil(x.width_m / outline_m);
-  assert(pieces_along >= 1 && pieces_across >= 1);
-  for (const auto side : {-0.5, 0.5}) {
-    for (auto i = 0.0; i <= pieces_along; ++i)
-      add((i / pieces_along - 0.5) * x.length_m, side * x.width_m);
-    for (auto i = 1.0; i < pieces_across; ++i)
-      add(side * x.length_m, (i / pieces_across - 0.5) * x.width_m);
-  }
-  if (print.low_m >= wide_m || print.high_m <= -wide_m)
-    return {};
-  assert(print.from_m <= print.to_m && print.low_m <= print.high_m);
-  return print;
-}
-
 /// Measures a body that comes towards the car as it will be where they meet:
 /// by then it has followed its lane, and turned with it.
 /// @param b  As it is now.
-std::optional<scene_interpreter::footprint>
+std::optional<body_footprint>
 scene_interpreter::measure_met(const own_place& me, const near& where,
-                               const footprint& b) const {
+                               const body_footprint& b) const {
   assert(b.speed_mps < 0 && me.speed_mps >= 0);
   assert(where.who < others_.size());
   const auto& x = others_[where.who].x;
@@ -328,7 +268,7 @@ scene_interpreter::measure_met(const own_place& me, const near& where,
 /// @returns whether a body can only be passed: that has begun, whoever planned
 /// it, and there is no way left to stop before it.
 bool scene_interpreter::has_to_pass(const own_place& me, const track& x,
-                                    const footprint& b) const {
+                                    const body_footprint& b) const {
   const auto way_m = b.from_m - me.s_m - params_.car.front_m;
   const auto to_left_m = -b.high_m > b.low_m ? me.d_m : -me.d_m;
   const auto has_begun = std::ranges::binary_search(were_beside_, x.id)
@@ -340,7 +280,7 @@ bool scene_interpreter::has_to_pass(const own_place& me, const track& x,
 
 /// @returns what a body takes of the way before the own rear, where the car
 /// will be; nothing if it will have left.
-std::optional<scene_interpreter::footprint>
+std::optional<body_footprint>
 scene_interpreter::measure_ahead(const own_place& me, const near& where) const {
   assert(where.who < others_.size() && half_lane_m_ > 0);
   const auto front_m = me.s_m + params_.car.front_m;
@@ -360,7 +300,7 @@ scene_interpreter::measure_ahead(const own_place& me, const near& where) const {
 /// @param pull_out_m  Besides what it keeps: it may turn out to be passable,
 ///                    and then there must be way to steer round it.
 lead_vehicle scene_interpreter::leading(const own_place& me, const track& x,
-                                        const footprint& b,
+                                        const body_footprint& b,
                                         double pull_out_m) const {
   const auto front_m = me.s_m + params_.car.front_m;
   const auto stop_m = me.speed_mps * me.speed_mps / (2 * calmly_mps2);
@@ -374,7 +314,7 @@ lead_vehicle scene_interpreter::leading(const own_place& me, const track& x,
 /// may be used: no crossing is near, and nothing else stands close behind it,
 /// or all has stood for so long that it is no queue.
 bool scene_interpreter::blocks_alone(
-    const own_place& me, const near& where, const footprint& b,
+    const own_place& me, const near& where, const body_footprint& b,
     std::span<const way_stretch> keep_free) const {
   assert(where.who < seen_ && b.from_m <= b.to_m);
   assert(params_.sees_opposite_m >= 0);
@@ -403,7 +343,7 @@ bool scene_interpreter::blocks_alone(
 
 /// @returns whether who comes on the opposite lane leaves time to overtake.
 bool scene_interpreter::has_time(const own_place& me, const near& where,
-                                 const footprint& b) {
+                                 const body_footprint& b) {
   assert(where.who < seen_ && b.from_m <= b.to_m);
   const auto& car = params_.car;
   const auto& x = others_[where.who].x;
@@ -426,6 +366,7 @@ bool scene_interpreter::has_time(const own_place& me, const near& where,
 
 void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
   beside_.clear();
+  std::optional<lane_obstacle> looks_past;
   const auto front_m = me.s_m + params_.car.front_m;
   const auto need_m = 2 * corridor_m();
   assert(need_m > 0 && !out.lead);
@@ -480,6 +421,13 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
                          is_overtaken                           ? looks_past_m
                          : x.stands() && certainly_lacks_m <= 0 ? pulls_out_m
                                                                 : 0.0);
+      looks_past = is_overtaken ? look_past(print->high_m, out.lead->rear_s_m,
+                                            b.half_lane_m, params_.car)
+                                : std::nullopt;
+      if (looks_past && looks_past->from_m < front_m
+          && looks_past_ != x.id) // it cannot steer there any more
+        looks_past.reset();
+      looks_past_ = looks_past ? x.id : 0;
     }
   }
   std::ranges::sort(beside_);
@@ -489,6 +437,8 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
     std::erase_if(out.beside, [&](const lane_obstacle& o) {
       return o.from_m > out.lead->rear_s_m;
     });
+  if (looks_past)
+    out.beside.push_back(*looks_past);
   std::ranges::sort(out.beside, {}, [](const lane_obstacle& o) {
     return std::tuple{o.from_m, o.low_m};
   });

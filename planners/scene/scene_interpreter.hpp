@@ -1,6 +1,7 @@
 // What the tracks on the road mean to one vehicle on its route.
 #pragma once
 
+#include "planners/scene/body_footprint.hpp"
 #include "planners/scene/corridor.hpp"
 #include "planners/scene/crossing_predictor.hpp"
 #include "planners/scene/driving_scene.hpp"
@@ -81,11 +82,6 @@ private:
     double low_m, guess_m;
     std::size_t who;
   };
-  struct footprint {
-    double from_m, to_m, low_m, high_m;
-    double cosine; // of the angle to the way
-    double speed_mps, half_lane_m;
-  };
   double reach_of(const track& x) const;
   double stands_s(time_point now, const own_place& me);
   void gather(time_point now, const own_place& me,
@@ -93,22 +89,27 @@ private:
   void keep_to_lane(const track& known, time_point now, track& x) const;
   void foresee_cutting_in();
   void find_near(const own_place& me);
-  std::optional<footprint> measure(const track& x, double guess_m) const;
-  std::optional<footprint> measure_met(const own_place& me, const near& where,
-                                       const footprint& b) const;
-  std::optional<footprint> measure_ahead(const own_place& me,
-                                         const near& where) const;
-  lead_vehicle leading(const own_place& me, const track& x, const footprint& b,
-                       double pull_out_m) const;
+  std::optional<body_footprint> measure(const track& x, double guess_m) const {
+    return measure_body(*way_, x, {guess_m, bead_m_, corridor_m()});
+  }
+  std::optional<body_footprint> measure_met(const own_place& me,
+                                            const near& where,
+                                            const body_footprint& b) const;
+  std::optional<body_footprint> measure_ahead(const own_place& me,
+                                              const near& where) const;
+  lead_vehicle leading(const own_place& me, const track& x,
+                       const body_footprint& b, double pull_out_m) const;
   void find_bodies(const own_place& me, driving_scene& out);
   double corridor_m() const {
     return params_.car.width_m / 2 + params_.margin_m;
   }
   bool has_to_pass(const own_place& me, const track& x,
-                   const footprint& b) const;
-  bool blocks_alone(const own_place& me, const near& where, const footprint& b,
+                   const body_footprint& b) const;
+  bool blocks_alone(const own_place& me, const near& where,
+                    const body_footprint& b,
                     std::span<const way_stretch> keep_free) const;
-  bool has_time(const own_place& me, const near& where, const footprint& b);
+  bool has_time(const own_place& me, const near& where,
+                const body_footprint& b);
 
   std::shared_ptr<const lane_network> lanes_;
   world::route_ptr way_;
@@ -121,6 +122,7 @@ private:
   std::size_t seen_ = 0; // of them; the rest is where those who cut in will be
   std::vector<near> near_;
   std::vector<std::uint32_t> beside_, were_beside_; // their tracks, sorted
+  std::uint32_t looks_past_ = 0; // the track that it waits behind
   std::vector<oncoming_body> coming_;
   std::optional<time_point> stands_since_;
 };

@@ -1,6 +1,7 @@
 // Time to overtake on the opposite lane.
 #include "planners/scene/overtaking.hpp"
 
+#include "planners/scene/corridor.hpp"
 #include "planners/scene/opposite_view.hpp"
 
 #include <doctest/doctest.h>
@@ -142,4 +143,26 @@ TEST_CASE(
   CHECK(sees_m(190, 0, 130) < 250);
   CHECK(sees_m(180, 0, 130) > sees_m(190, 0, 130));
   CHECK(sees_m(190, 1.2, 130) > 310);
+}
+
+TEST_CASE("a car that waits behind a body stands so far left that it sees past "
+          "it, and leaves room for who comes") {
+  constexpr world::vehicle_params car;
+  constexpr double rests_m = 190, half_lane_m = 1.75;
+  CHECK_FALSE(look_past(-0.2, rests_m, half_lane_m, car)); // it sees past it
+  for (const auto body_left_m : {0.2, 0.5, 0.8, 1.2, 1.75}) {
+    CAPTURE(body_left_m);
+    const auto keeps = look_past(body_left_m, rests_m, half_lane_m, car);
+    REQUIRE(keeps);
+    // The car's middle is as far from what keeps it as from any body.
+    const auto middle_m =
+        keeps->high_m + corridor::room_beside_m - car.width_m / 2;
+    const auto left_side_m = middle_m + car.width_m / 2;
+    CHECK(middle_m <= body_left_m + 0.1 + 1e-9);
+    CHECK(left_side_m <= half_lane_m + 0.25 + 1e-9);
+    CHECK((middle_m > body_left_m || left_side_m > half_lane_m + 0.2));
+    CHECK(half_lane_m + keeps->left_m - keeps->high_m
+          > corridor::room_beside_m); // it can be passed, on the left
+    CHECK(keeps->from_m < rests_m - car.front_m); // its axle is there, too
+  }
 }
