@@ -279,7 +279,7 @@ plan_judge::first_touch(const judged_plan& x, const world::trajectory& plan,
   // What was seen was seen a little earlier.
   const auto seen_s = to_seconds(x.now - x.seen.at);
   const auto& path = x.way.path();
-  double s_m = 0, d_m = 0, v = 0;
+  double s_m = 0, d_m = 0, v = 0, turned = 0;
   for (double t = 0; t <= limits.horizon_s; t += limits.step_s) {
     if (t <= until_s) {
       const auto p = plan.at(late_s + t);
@@ -287,13 +287,15 @@ plan_judge::first_touch(const judged_plan& x, const world::trajectory& plan,
       s_m = p.s_m;
       d_m = cross(lane.tangent, p.at - lane.at);
       v = p.speed_mps;
+      turned = cross(lane.tangent,
+                     {std::cos(p.heading_rad), std::sin(p.heading_rad)});
     } else {
       const auto slower = std::max(0.0, v - decel_mps2 * limits.step_s);
       assert(v >= 0);
       s_m += limits.step_s * (v + slower) / 2;
       v = slower;
     }
-    motion_.push_back({t + seen_s, s_m, d_m, v});
+    motion_.push_back({t + seen_s, s_m, d_m, turned, v});
   }
   return bodies_.first_touch(motion_, car_);
 }

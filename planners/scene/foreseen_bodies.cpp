@@ -105,22 +105,35 @@ bool foreseen_bodies::any_in_reach(double ahead_m, double beside_m,
   });
 }
 
+/// The own body may be turned: only the part of it counts that is beside the
+/// other one.
+bool foreseen_bodies::touches(const box& x, const place_in_time& p,
+                              const world::vehicle_params& car) const {
+  const auto half_m = std::min(x.half_length_m, x.core_m);
+  const auto way_m = along_m(x, p.t_s) - p.s_m; // from the own axle
+  const auto from_m = std::max(way_m - half_m, -car.rear_m);
+  const auto to_m = std::min(way_m + half_m, car.front_m);
+  if (from_m >= to_m)
+    return false;
+  assert(std::abs(p.turned) <= 1);
+  const auto apart_m = x.d_m + x.across_mps * p.t_s - p.d_m;
+  const auto near_m = apart_m - from_m * p.turned;
+  const auto far_m = apart_m - to_m * p.turned;
+  const auto least_m =
+      near_m * far_m <= 0 ? 0.0 : std::min(std::abs(near_m), std::abs(far_m));
+  return least_m < half_corridor_m_ + std::min(x.half_width_m, x.core_m);
+}
+
 std::optional<foreseen_bodies::touch>
 foreseen_bodies::first_touch(std::span<const place_in_time> motion,
                              const world::vehicle_params& car) const {
   assert(std::ranges::is_sorted(motion, {}, &place_in_time::t_s));
-  const auto middle_m = (car.front_m - car.rear_m) / 2;
-  const auto half_length_m = (car.front_m + car.rear_m) / 2;
-  assert(half_length_m > 0 && half_corridor_m_ >= 0);
+  assert(half_corridor_m_ >= 0);
   for (const auto& p : motion) {
     if (p.speed_mps < stands_mps)
       continue;
     for (const auto& x : boxes_)
-      if (x.counts
-          && std::abs(along_m(x, p.t_s) - p.s_m - middle_m)
-                 < half_length_m + std::min(x.half_length_m, x.core_m)
-          && std::abs(x.d_m + x.across_mps * p.t_s - p.d_m)
-                 < half_corridor_m_ + std::min(x.half_width_m, x.core_m))
+      if (x.counts && touches(x, p, car))
         return touch{p.t_s, x.crosses};
   }
   return std::nullopt;

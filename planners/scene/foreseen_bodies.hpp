@@ -16,9 +16,11 @@ namespace sofof::planners {
 
 /// A vehicle's place on its route at one moment.
 struct place_in_time {
-  double t_s = 0; ///< From now on.
-  double s_m = 0; ///< Rear axle, arc length on the route, laps included.
-  double d_m = 0; ///< Its offset, left positive.
+  double t_s = 0;    ///< From now on.
+  double s_m = 0;    ///< Rear axle, arc length on the route, laps included.
+  double d_m = 0;    ///< Its offset, left positive.
+  double turned = 0; ///< Sine of the heading to the way: what is before the
+                     ///< axle is so much farther left, m per m.
   double speed_mps = 0;
 };
 
@@ -97,6 +99,8 @@ private:
     bool crosses;
   };
   static double along_m(const box& x, double t_s);
+  bool touches(const box& x, const place_in_time& p,
+               const world::vehicle_params& car) const;
 
   std::vector<box> boxes_; // the room is used again
   double front_m_ = 0;     // of the vehicle, arc length

@@ -82,3 +82,21 @@ TEST_CASE_FIXTURE(left_turn,
   lorry.width_m = 1.8;
   CHECK_FALSE(seen(lorry).any_in_reach(20, 2.5, 0));
 }
+
+TEST_CASE_FIXTURE(left_turn,
+                  "a vehicle that steers out past a body has its front beside "
+                  "it, not where its rear axle is") {
+  const auto body = seen(car_at({0, 25})); // its middle, 15 m ahead
+  constexpr vehicle_params own;
+  const auto passes_m = 1.8 / 2 + own.width_m / 2; // from middle to middle
+  const auto at = [&](double d_m, double turned) {
+    const place_in_time p{1, s_m + 17 - 4.5 / 2 - own.front_m + 0.5, d_m,
+                          turned, 5};
+    return body.first_touch(std::vector{p}, own).has_value();
+  };
+  CHECK(at(passes_m - 0.5, 0));
+  CHECK_FALSE(at(passes_m - 0.5, 0.2)); // its front is 0.6 m farther left
+  CHECK(at(-passes_m + 0.5, 0));
+  CHECK_FALSE(at(-passes_m + 0.5, -0.2));
+  CHECK(at(passes_m, -0.2)); // it steers into it
+}
