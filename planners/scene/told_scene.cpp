@@ -23,8 +23,8 @@ constexpr double as_told_m = 4, as_told_along_m = 4;
 constexpr double lead_moves_mps = 1;
 /// Who is slower than it says by more brakes for something.
 constexpr double lead_slower_mps = 1;
-/// Who is behind its claim by more does not keep it.
-constexpr double late_m = 3;
+/// Who is behind its claim by more does not keep it: a way, and a time.
+constexpr double late_m = 3, late_s = 0.5;
 /// Drives are looked for on the own way so far from the car.
 constexpr double own_way_m = 200;
 /// A lead is on the own way if it is not farther from it than a car by this.
@@ -67,7 +67,8 @@ void find_those_who_tell(time_point now, std::span<const told_drive> told,
     const point ahead{std::cos(body.heading_rad), std::sin(body.heading_rad)};
     nearest->has_claimed =
         has_agreed && is_claimed
-        && dot(body.centre - nearest->x.centre(), ahead) < late_m;
+        && dot(body.centre - nearest->x.centre(), ahead)
+               < std::max(late_m, late_s * nearest->x.speed_mps());
     nearest->takes_part = nearest->has_claimed || (has_agreed && !is_claimed);
   }
 }
