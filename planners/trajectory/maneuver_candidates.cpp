@@ -17,12 +17,16 @@ constexpr double gap_to_begin_s = 1.5;
 constexpr double gap_once_begun_s = 0.8;
 constexpr double gap_at_last_s = 0.5;
 /// Whoever can stay off a place by braking so little may have to, for a car
-/// that cannot stop before it any more.
-constexpr double little_braking_mps2 = 1.5;
+/// that cannot stop before it any more; less little once that has begun to go
+/// before it: two that both brake hard are worse.
+constexpr double little_braking_mps2 = 1.5, braking_for_begun_mps2 = 2.5;
+/// Others see that a car goes on which would have to brake harder than this
+/// (crossing_predictor).
+constexpr double surely_goes_on_mps2 = 3.0;
 /// Who has waited for long asks others to let it go: those who can stay off by
 /// braking even less may come to the place before the own car has left it, as
 /// they come now.
-constexpr double asked_braking_mps2 = 1.0, gap_asked_s = -1.5;
+constexpr double asked_braking_mps2 = 1.0, gap_asked_s = -3.0;
 /// Who waits at a line or is slow, or hardly moves, may come so far beyond it:
 /// a place begins before bodies touch.
 constexpr double waits_within_m = 0.5, stands_within_m = 1.5;
@@ -156,7 +160,7 @@ bool add_windows(const minded_cars& minded, const crossing_car& car,
     const auto& [line_m, clear_m, user, bit] = minded.places[i];
     const auto before = (order.choice >> bit & 1U) != 0;
     if (before && minded.cars[bit].committed
-        && user->brakes_mps2 < little_braking_mps2)
+        && user->brakes_mps2 < braking_for_begun_mps2)
       continue; // it lets the car pass
     auto& window = order.windows[order.count++];
     if (before) {
@@ -241,11 +245,20 @@ crossing_choice going_on(crossing_choice last,
         || line_m < 0 || line_m > stopping_m(car)
         || last.goes_before(user.body))
       continue;
-    const auto goes_before = [&](const crossing_user& x) {
-      return x.body != user.body
-             || when_s(way(x.to_m + car.rear_m)) < x.enter_s;
+    const auto all_of_it = [&](const auto& holds) {
+      return std::ranges::all_of(users, [&](const crossing_user& x) {
+        return x.body != user.body || holds(x);
+      });
     };
-    if (std::ranges::all_of(users, goes_before))
+    const auto is_past = [&](const crossing_user& x) {
+      return when_s(way(x.to_m + car.rear_m)) < x.enter_s;
+    };
+    const auto can_stay_off = [](const crossing_user& x) {
+      return x.brakes_mps2 < little_braking_mps2;
+    };
+    const auto surely_goes_on =
+        car.speed_mps * car.speed_mps > 2 * surely_goes_on_mps2 * line_m;
+    if (all_of_it(is_past) || (surely_goes_on && all_of_it(can_stay_off)))
       *free = user.body;
   }
   assert(!last.waits || last.before[0] == 0);

@@ -66,7 +66,9 @@ double stopping_m(const crossing_car& car);
 
 /// @returns what was decided last, and that the car goes on before those before
 ///          whom it does by the plan in use and cannot stop any more: they have
-///          just come in sight, or the plan was made elsewhere.
+///          just come in sight, or the plan was made elsewhere. So it does
+///          before those who have to brake little, where it would have to brake
+///          hard.
 /// @param when_s  When the plan has made a way from the car on; infinite: it
 ///                does not.
 crossing_choice going_on(crossing_choice last,

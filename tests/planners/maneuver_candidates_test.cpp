@@ -158,19 +158,42 @@ TEST_CASE("who has begun to go before another leaves it less time, and least "
   CHECK(latest_s(9, {}, slow) == Approx(18.5));
 }
 
-TEST_CASE("who can stay off by braking little lets a car pass that cannot stop "
-          "any more") {
+TEST_CASE(
+    "who can stay off by braking firmly lets a car pass that has begun to "
+    "go before it and cannot stop any more") {
   const crossing_car fast{4, 1, 10, 14, 1.5};
   auto other = user(12, 17, 0.5, 3, true, 1);
   const auto goes = [&](const crossing_choice& last) {
     return lists(orders({other}, last, 16, fast), 1);
   };
   CHECK_FALSE(goes({.before = {1}}));
-  other.brakes_mps2 = 1.4;
+  other.brakes_mps2 = 2.4;
   CHECK(goes({.before = {1}}));
   CHECK_FALSE(goes({}));
-  other.brakes_mps2 = 1.6;
+  other.brakes_mps2 = 2.6;
   CHECK_FALSE(goes({.before = {1}}));
+}
+
+TEST_CASE(
+    "a car that would have to brake hard goes on before those who can stay "
+    "off by braking little at all places, and before nobody else") {
+  const crossing_car fast{4, 1, 10, 14, 1.5};
+  const auto never_comes = [](double) { return speed_constraints::never; };
+  // At 10 m/s it stops within 16.7 m by 3 m/s².
+  const auto goes_on = [&](double line_m, double brakes_mps2,
+                           double brakes_later_mps2) {
+    auto here = user(line_m + 4, line_m + 9, 2, 5, true, 1);
+    auto later = user(line_m + 14, line_m + 19, 3, 6, true, 1);
+    here.brakes_mps2 = brakes_mps2;
+    later.brakes_mps2 = brakes_later_mps2;
+    return going_on({}, std::vector{here, later}, fast, straight_on,
+                    never_comes)
+        .goes_before(1);
+  };
+  CHECK(goes_on(16, 1.4, 1.0));
+  CHECK_FALSE(goes_on(17, 1.4, 1.0)); // others think that it will stop
+  CHECK_FALSE(goes_on(16, 1.6, 1.0));
+  CHECK_FALSE(goes_on(16, 1.4, 1.6));
 }
 
 TEST_CASE("who has waited for long goes before those whom it costs little "

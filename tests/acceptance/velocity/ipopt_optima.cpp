@@ -55,8 +55,8 @@ public:
     a_tot_ = limits["a_tot"];
   }
 
-  /// The first guess: a share of what is wanted, braked down to from where the
-  /// car is.
+  /// The first guess: the car brakes to a share of its leader's speed, until it
+  /// is as far behind as it has to be, and follows it from then on.
   void start_at(double share) { share_ = share; }
 
   bool is_solved = false;
@@ -102,17 +102,27 @@ public:
 
   bool get_starting_point(Index, bool, Number* x, bool, Number*, Number*, Index,
                           bool, Number*) override {
-    auto last_w = x0(1), last_t = x0(0);
-    for (auto k = 1; k <= n_; ++k) {
-      const auto next =
-          std::min(w_max_[at(k)], std::max(share_ * w_ref_[at(k)],
-                                           last_w + ds_ * a_min_ * share_));
-      x[w(k)] = std::max(next, 0.01);
-      x[a(k)] = std::clamp((x[w(k)] - last_w) / ds_, a_min_, a_max_);
-      x[u(k - 1)] = 0;
-      last_t += 2 * ds_ / (speed{last_w, eps_}.v + speed{x[w(k)], eps_}.v);
-      x[t(k)] = std::max(last_t, bound("t_lo", k, -infinite));
-      last_w = x[w(k)];
+    const auto leader_mps =
+        ds_ / (bound("t_lo", n_, 0) - bound("t_lo", n_ - 1, 0));
+    auto now_s = x0(0), here_w = x0(1), here_a = x0(2);
+    for (auto k = 0; k < n_; ++k) {
+      const speed here{here_w, eps_};
+      // When the leader leaves it the place, also where that is no bound.
+      const auto free_s = bound("t_lo", n_, 0) - (n_ - k) * ds_ / leader_mps;
+      const auto wanted_mps = (now_s < free_s ? share_ : 1) * leader_mps;
+      const auto wanted_w = std::min(squared(wanted_mps) / 2, w_ref_[at(k)]);
+      constexpr auto closes_m = 4.0;
+      const auto wanted_a =
+          std::clamp((wanted_w - here_w) / closes_m, a_min_, a_max_);
+      const auto most = 0.9 * j_max_ / here.v;
+      x[u(k)] = std::clamp((wanted_a - here_a) / ds_, -most, most);
+      const auto next_w = here_w + ds_ * here_a + ds_ * ds_ / 2 * x[u(k)];
+      here_w = std::clamp(next_w, 0.01, w_max_[at(k + 1)]);
+      here_a += ds_ * x[u(k)];
+      now_s += 2 * ds_ / (here.v + speed{here_w, eps_}.v);
+      x[w(k + 1)] = here_w;
+      x[a(k + 1)] = here_a;
+      x[t(k + 1)] = now_s;
     }
     return true;
   }
@@ -339,7 +349,7 @@ private:
 double best_cost(Ipopt::IpoptApplication& solver, const json& file,
                  const json& one) {
   auto best = infinite;
-  for (const auto share : {1.0, 0.8, 0.6, 0.4, 0.25, 0.12}) {
+  for (const auto share : {0.95, 0.8, 0.6, 0.3}) {
     Ipopt::SmartPtr<velocity_nlp> problem = new velocity_nlp{file, one};
     problem->start_at(share);
     solver.OptimizeTNLP(GetRawPtr(problem));
@@ -361,7 +371,7 @@ int main(int argc, char** argv) {
   const auto most = std::stoul(argv[3]);
   Ipopt::IpoptApplication solver;
   solver.Options()->SetNumericValue("tol", 1e-9);
-  solver.Options()->SetIntegerValue("max_iter", 1000);
+  solver.Options()->SetIntegerValue("max_iter", 300);
   solver.Options()->SetIntegerValue("print_level", 0);
   solver.Options()->SetStringValue("sb", "yes");
   if (solver.Initialize() != Ipopt::Solve_Succeeded)
