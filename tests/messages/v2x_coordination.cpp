@@ -142,6 +142,23 @@ TEST_CASE("a word carries the plan in use for who takes over") {
   }
 }
 
+TEST_CASE("a word tells the size of a body, unless it is larger than 6.1 m") {
+  const auto way = round()->waypoints(12, 200, 10);
+  const auto told = [&](double front_m) {
+    auto body = car;
+    body.front_m = front_m;
+    const auto got = read_word(
+        sent(make_word({at(12, 5), way, nullptr, {}}, body, *in_ulm())),
+        *in_ulm(), start + 20ms);
+    REQUIRE(got);
+    CHECK(got->width_m.value() == doctest::Approx(car.width_m).epsilon(0.03));
+    return got->length_m;
+  };
+  CHECK(told(car.front_m).value()
+        == doctest::Approx(car.front_m + car.rear_m).epsilon(0.01));
+  CHECK_FALSE(told(11));
+}
+
 TEST_CASE("of a plan that began before the word the rest is told") {
   const auto way = round()->waypoints(12, 200, 10);
   for (const auto age : {1ms, 50ms, 400ms, 433ms}) {

@@ -108,7 +108,7 @@ struct crossing_driver_state {
     const auto said = messages::read_word(word, *world->where, t);
     if (!said || protocol::is_of_future(said->at, t))
       return;
-    auto drive = drive_of(*said, world->where->frame, world->car);
+    auto drive = drive_of(*said, world->where->frame, world->car.rear_m);
     planners::crossing_claim claim{said->from, said->at, std::nullopt};
     if (is_claim(*said) && !drive.empty())
       claim.drive = drive;

@@ -8,6 +8,13 @@
 #include <cmath>
 
 namespace sofof::actors {
+namespace {
+
+/// The largest that may be on roads without a permit, m: Directive 96/53/EC,
+/// Annex I. Who does not tell its size may have it.
+constexpr double longest_m = 18.75, widest_m = 2.55;
+
+} // namespace
 
 std::vector<point> authority(const world::route& way, double s_m,
                              std::optional<double> stop_at_m) {
@@ -20,13 +27,15 @@ std::vector<point> authority(const world::route& way, double s_m,
 
 planners::claimed_drive drive_of(const messages::decoded_mcm& word,
                                  const messages::geo_frame& earth,
-                                 const world::vehicle_params& car) {
+                                 double rear_m) {
   planners::claimed_drive drive;
   if (!word.plan || word.plan->step_ms < 1)
     return drive;
   drive.from = word.at + std::chrono::milliseconds{word.plan->start_ms};
   drive.step = std::chrono::milliseconds{word.plan->step_ms};
-  const auto middle_m = (car.front_m - car.rear_m) / 2;
+  const auto length_m = word.length_m.value_or(longest_m);
+  const auto width_m = word.width_m.value_or(widest_m);
+  const auto middle_m = length_m / 2 - rear_m;
   for (const auto& p : word.plan->points) {
     const auto heading = earth.to_map_heading(p.heading, word.reference);
     if (!heading)
@@ -35,8 +44,8 @@ planners::claimed_drive drive_of(const messages::decoded_mcm& word,
         word.reference
         + earth.to_map_axes({p.x_cm / 100.0, p.y_cm / 100.0}, word.reference);
     const point ahead{std::cos(*heading), std::sin(*heading)};
-    drive.bodies.push_back({axle + middle_m * ahead, *heading,
-                            car.front_m + car.rear_m, car.width_m});
+    drive.bodies.push_back(
+        {axle + middle_m * ahead, *heading, length_m, width_m});
   }
   return drive;
 }

@@ -17,10 +17,13 @@ namespace sofof::actors {
 std::vector<point> authority(const world::route& way, double s_m,
                              std::optional<double> stop_at_m);
 
-/// @returns the body in time that a planned trajectory is; empty for none.
+/// @param rear_m  How far bodies reach behind the point that drives, which MCMs
+///                do not tell.
+/// @returns the body in time that a planned trajectory is; empty for none. Of
+/// who does not tell its size, the largest that there may be.
 planners::claimed_drive drive_of(const messages::decoded_mcm& word,
                                  const messages::geo_frame& earth,
-                                 const world::vehicle_params& car);
+                                 double rear_m);
 
 /// @returns what is left of a drive, as far as an MCM tells it: 20 s; empty if
 /// nothing is.

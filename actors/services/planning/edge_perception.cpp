@@ -85,8 +85,9 @@ void edge_perception::on_word(const messages::decoded_mcm& word, sender_id) {
     return;
   auto& known = said_[word.from];
   if (known.at < word.at)
-    known = {word.at, drive_of(word, where_->frame, {}), is_claim(word),
-             word.reference};
+    known = {word.at,
+             drive_of(word, where_->frame, world::vehicle_params{}.rear_m),
+             is_claim(word), word.reference};
 }
 
 void edge_perception::drives(std::vector<planners::told_drive>& out,

@@ -73,6 +73,13 @@ etsi::planned_trajectory written(const planned_points& plan) {
   return out;
 }
 
+/// The largest number stands for all that is larger, too.
+std::optional<double> told_size_m(const etsi::road_user_size& x) {
+  if (x.value == etsi::road_user_size_unavailable)
+    return std::nullopt;
+  return etsi::road_user_size_m.to_si(x.value);
+}
+
 planned_points understood(const etsi::planned_trajectory& plan) {
   planned_points out{plan.start_delta_time, plan.delta_time, {}};
   for (const auto& p : plan.points)
@@ -129,6 +136,8 @@ read_word(const etsi::mcm& message, const georeference& where, time_point now) {
   word.from = message.header.station.value;
   word.at = frame->generated;
   word.reference = frame->reference;
+  word.length_m = told_size_m(user->state.length);
+  word.width_m = told_size_m(user->state.width);
   if (user->desired_route)
     for (const auto& x : *user->desired_route)
       word.way.push_back(place_of(x, *frame));

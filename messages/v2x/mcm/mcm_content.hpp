@@ -47,6 +47,8 @@ struct decoded_mcm {
   std::optional<planned_points> plan;
   std::optional<std::pair<maneuver_name, etsi::maneuver_response>> answer;
   point reference; ///< What the plan's points are seen from.
+  /// Of its body; nullopt: larger than an MCM can tell (6.1 m), or not told.
+  std::optional<double> length_m, width_m;
 };
 
 /// @param now  The message tells its time modulo 65.536 s: the nearest to now
