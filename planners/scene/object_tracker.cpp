@@ -1,6 +1,8 @@
 // Everything on the road that somebody sees, as tracks.
 #include "planners/scene/object_tracker.hpp"
 
+#include "planners/scene/line_of_sight.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -14,6 +16,8 @@ using namespace std::chrono_literals;
 
 /// Who has not been seen for longer is forgotten, unless sightings are rare.
 constexpr duration memory = 1s;
+/// Who is hidden is remembered for longer; what hides it was seen just now.
+constexpr duration hidden_memory = 4s, just_now = 300ms;
 
 /// Sightings that arrive later than this are useless.
 constexpr duration max_delay = 500ms;
@@ -92,7 +96,9 @@ object_tracker::object_tracker(sighting_noise noise, sighting_rhythm rhythm)
 }
 
 void object_tracker::update(time_point at,
-                            std::span<const world::perceived_object> seen) {
+                            std::span<const world::perceived_object> seen,
+                            std::optional<point> eye) {
+  eye_ = eye;
   if (!pass_time(at))
     return;
   sightings_.clear();
@@ -143,8 +149,13 @@ void object_tracker::on_report(time_point at, station_id who,
 bool object_tracker::pass_time(time_point at) {
   if (at > newest_) {
     newest_ = at;
+    forgotten_.clear();
+    for (const auto& x : tracks_)
+      if (const auto unseen = newest_ - x.seen;
+          unseen > lifetime(x) && (unseen > hidden_memory || !is_hidden(x)))
+        forgotten_.push_back(x.id);
     std::erase_if(tracks_, [&](const track& x) {
-      return newest_ - x.seen > lifetime(x);
+      return std::ranges::binary_search(forgotten_, x.id);
     });
     for (auto& x : tracks_)
       x = predict(x, newest_);
@@ -160,6 +171,17 @@ bool object_tracker::pass_time(time_point at) {
 duration object_tracker::lifetime(const track& x) const {
   const auto silence = rhythm_.silence(x.speed_mps());
   return std::max(memory, 2 * silence + max_delay);
+}
+
+/// @returns whether something else stands or drives before it now.
+bool object_tracker::is_hidden(const track& x) const {
+  if (!eye_)
+    return false;
+  const auto there = predict(x, newest_).centre();
+  return std::ranges::any_of(tracks_, [&](const track& y) {
+    return y.id != x.id && newest_ - y.seen < just_now
+           && crosses(*eye_, there, predict(y, newest_).body());
+  });
 }
 
 object_tracker::observation

@@ -47,10 +47,11 @@ struct sighting_rhythm {
 ///   track is of its body: two cannot be in one place.
 /// * Birth at the first sighting, without confirmation: whoever brakes late
 ///   for a body brakes hard.
-/// * Death after a second without sightings, so that short occlusions do not
-///   make bodies vanish; later where sightings are told so rarely that one
-///   lost message and the slowest next one take longer. The uncertainty grows
-///   meanwhile.
+/// * Death after a second without sightings; later where sightings are told so
+///   rarely that one lost message and the slowest next one take longer, and
+///   after four seconds of what is behind another body, as the only observer
+///   sees it: who waits for a car must not forget it when the next one stops
+///   in between. The uncertainty grows meanwhile.
 class object_tracker {
 public:
   explicit object_tracker(sighting_noise noise = {},
@@ -62,7 +63,9 @@ public:
   ///              can be (not finite, 0 m or 61 m long, 101 m/s, 1e7 m away)
   ///              are left out, and so are all after the first 256. May be
   ///              empty: time passes.
-  void update(time_point at, std::span<const world::perceived_object> seen);
+  /// @param eye   Where the observer is, if there is only this one.
+  void update(time_point at, std::span<const world::perceived_object> seen,
+              std::optional<point> eye = std::nullopt);
 
   /// Tells what a connected vehicle says of itself (a CAM); from now on its
   /// track bears its name.
@@ -88,6 +91,7 @@ private:
 
   bool pass_time(time_point at);
   duration lifetime(const track& x) const;
+  bool is_hidden(const track& x) const;
   observation make_sighting(time_point at,
                             const world::perceived_object& o) const;
   void match(std::uint32_t t, std::uint32_t s);
@@ -102,11 +106,13 @@ private:
   sighting_noise noise_;
   sighting_rhythm rhythm_;
   time_point newest_{-longest_time};
+  std::optional<point> eye_;
   std::uint32_t last_id_ = 0;
   std::vector<track> tracks_;
   std::vector<observation> sightings_;
   std::vector<pair> pairs_;
   std::vector<char> is_taken_; // of each track
+  std::vector<std::uint32_t> forgotten_;
 };
 
 } // namespace sofof::planners

@@ -330,6 +330,26 @@ TEST_CASE("a body is remembered for a second without sightings") {
   CHECK(model.tracks().empty());
 }
 
+TEST_CASE(
+    "a car that comes is remembered for four seconds by its only observer "
+    "while another one stands in between") {
+  constexpr point eye{0, 0};
+  const auto is_known_after = [&](duration unseen, point between) {
+    object_tracker model;
+    const auto stands = perceived_car(between, 0, std::numbers::pi / 2);
+    model.update(
+        first_sight,
+        std::vector{perceived_car({60, 0}, 10, std::numbers::pi), stands}, eye);
+    for (auto t = 100ms; t <= unseen; t += 100ms)
+      model.update(first_sight + t, std::vector{stands}, eye);
+    return model.tracks().size() == 2;
+  };
+  CHECK(is_known_after(1s, {10, 4}));
+  CHECK_FALSE(is_known_after(1100ms, {10, 4})); // it would be seen there
+  CHECK(is_known_after(4s, {10, 0}));
+  CHECK_FALSE(is_known_after(4100ms, {10, 0}));
+}
+
 TEST_CASE("a body that is told of once a second outlives a lost message") {
   object_tracker model{{}, rhythm};
   see(model, first_sight, perceived_car({}));

@@ -36,7 +36,7 @@ public:
       from.accel_mps2 =
           std::clamp(from.accel_mps2, -style().comfort_decel_mps2,
                      style().max_accel_mps2); // none of its own so far
-    take_in(now, request->seen);
+    take_in(now, *request);
     from.others.stop_at_m = request->stop_at_m(world_->car);
     std::span<const planners::told_drive> told;
     if (const auto* agreed_on = request->crossing.get()) {
@@ -52,7 +52,7 @@ public:
 
   void observe(time_point now, const messages::service_input& input) override {
     if (const auto request = input.what.as<plan_request>())
-      take_in(now, request->seen);
+      take_in(now, *request);
   }
 
 private:
@@ -70,11 +70,12 @@ private:
   }
 
   // Every sight counts once.
-  void take_in(time_point now, const world::perception& seen) {
+  void take_in(time_point now, const plan_request& request) {
+    const auto& seen = request.seen;
     if (seen.at == taken_in_ || protocol::is_of_future(seen.at, now))
       return;
     taken_in_ = seen.at;
-    model_.update(seen.at, seen.objects);
+    model_.update(seen.at, seen.objects, request.own.position);
   }
 
   planning_world_ptr world_;
