@@ -198,9 +198,14 @@ bool crossing_predictor::gives_way(const crossing_viewer& me, const track& x,
     return false; // it is there
   const auto brakes = x.accel_mps2 < -slows_down_mps2;
   if (v * v > 2 * (brakes ? yielding_decel_mps2 : begins_by_mps2) * way_m) {
-    // It will be there, unless it comes towards the car and does not turn.
+    // It will be there, unless it does not turn into the own way: who has to
+    // give way, and does not, goes elsewhere. That is for sure where it comes
+    // towards the car; else it is for a car that could only brake hard.
     const auto own_way_m = std::max(0.0, own.on.from_m - me.front_m);
-    return when.may_turn_off && !brakes && would_turn_across(when, own)
+    const auto goes_on =
+        me.speed_mps * me.speed_mps > 2 * begins_by_mps2 * own_way_m;
+    return when.may_turn_off
+           && (goes_on || (!brakes && would_turn_across(when, own)))
            && own_way_m < me.speed_mps * (when.enter_s + close_s)
            && has_to_give_way(me, x, when, own);
   }

@@ -97,6 +97,24 @@ TEST_CASE("who comes towards one, would have to give way to turn, and does "
   CHECK(c->goes_first);
 }
 
+TEST_CASE(
+    "for a car that could only brake hard any more who would have to give "
+    "way, and may turn off, does not come, even if it brakes a little") {
+  auto o = at_cross_roads({3, 0, 1}, 100);
+  const auto middle_m = o.way->path().project({0, -1.75}).s_m;
+  o.me.speed_mps = 8;
+  auto oncoming = seen_track({12.5, 1.75}, pi, 7);
+  oncoming.accel_mps2 = -1.5;
+  const auto one_goes_first = [&](double before_m) {
+    o.me.s_m = middle_m - before_m;
+    o.look({oncoming});
+    REQUIRE_FALSE(o.seen.crossings.empty());
+    return std::ranges::any_of(o.seen.crossings, &crossing_user::goes_first);
+  };
+  CHECK_FALSE(one_goes_first(9));
+  CHECK(one_goes_first(24)); // it can stop, and does not know
+}
+
 TEST_CASE("who rolls on where it would have to brake by now goes first") {
   auto o = at_cross_roads({3, 0, 1}, 100);
   auto x = seen_track({1.75, -6.1}, pi / 2, 2); // 0.6 m to go
