@@ -30,6 +30,9 @@ constexpr double asked_braking_mps2 = 1.0, gap_asked_s = -3.0;
 /// Who waits at a line or is slow, or hardly moves, may come so far beyond it:
 /// a place begins before bodies touch.
 constexpr double waits_within_m = 0.5, stands_within_m = 1.5;
+/// Who stands farther on a place waits there for who is on it: each of both
+/// would take the other's way out.
+constexpr double stands_on_it_m = 6;
 constexpr double slow_mps = 2.0, hardly_mps = 0.3;
 /// Less is not worth to come beyond a line.
 constexpr double worth_it_m = 0.1;
@@ -106,12 +109,14 @@ void find_cars(std::span<const crossing_user> users, const crossing_car& car,
 
 /// @returns way to where it waits for what begins after a way: there, or a
 /// little later where that is too near; negative where it is too late to.
-double waiting_line_m(double line_m, const crossing_car& car, bool waits) {
+double waiting_line_m(double line_m, bool is_taken, const crossing_car& car,
+                      bool waits) {
   assert(car.speed_mps >= 0 && car.firm_decel_mps2 > 0);
   const auto slow = car.speed_mps < slow_mps;
-  const auto within_m = car.speed_mps < hardly_mps ? stands_within_m
-                        : waits || slow            ? waits_within_m
-                                                   : 0.0;
+  const auto within_m = car.speed_mps < hardly_mps
+                            ? is_taken ? stands_on_it_m : stands_within_m
+                        : waits || slow ? waits_within_m
+                                        : 0.0;
   if (line_m < -within_m)
     return line_m;
   const auto softly_m = std::min(line_m + waits_within_m, stopping_m(car));
@@ -125,7 +130,8 @@ minded_cars find_minded(std::span<const crossing_user> users,
   minded_cars found;
   assert(way && car.front_m > 0);
   const auto line_of = [&](const crossing_user& user) {
-    return waiting_line_m(way(user.from_m - car.front_m), car, last.waits);
+    return waiting_line_m(way(user.from_m - car.front_m), user.enter_s <= 0,
+                          car, last.waits);
   };
   find_cars(users, car, line_of, found);
   for (const auto& user : users) {

@@ -289,6 +289,22 @@ TEST_CASE("who sees late that it has to wait comes a little beyond the line "
   CHECK(waits_at_m(1, -0.6, -1) < 0); // it has come onto the crossing
 }
 
+TEST_CASE(
+    "who stands with its front on a place waits there for who is on it, and "
+    "goes on before who comes") {
+  const crossing_car stands{4, 1, 0, 14, 1.5};
+  const auto waits = [&](double line_m, double enter_s) {
+    const auto all =
+        orders({user(line_m + 4, line_m + 10, enter_s, enter_s + 5, true, 1)},
+               {}, 16, stands);
+    return all.size() > 1; // else it minds nobody
+  };
+  CHECK(waits(-2, 0));
+  CHECK(waits(-5, 0));
+  CHECK_FALSE(waits(-2, 1));
+  CHECK(waits(-1, 1)); // it hardly reaches in
+}
+
 TEST_CASE("an empty lane has one way through") {
   const auto all = sides({});
   REQUIRE(all.size() == 1);
