@@ -21,8 +21,8 @@ constexpr double gap_at_last_s = 0.5;
 /// before it: two that both brake hard are worse.
 constexpr double little_braking_mps2 = 1.5, braking_for_begun_mps2 = 2.5;
 /// Others see that a car goes on which would have to brake harder than this
-/// (crossing_predictor).
-constexpr double surely_goes_on_mps2 = 3.0;
+/// (crossing_predictor), or that is on a place so long before they would be.
+constexpr double surely_goes_on_mps2 = 3.0, is_seen_there_s = 1.0;
 /// Who has waited for long asks others to let it go: those who can stay off by
 /// braking even less may come to the place before the own car has left it, as
 /// they come now.
@@ -259,12 +259,14 @@ crossing_choice going_on(crossing_choice last,
     const auto is_past = [&](const crossing_user& x) {
       return when_s(way(x.to_m + car.rear_m)) < x.enter_s;
     };
-    const auto can_stay_off = [](const crossing_user& x) {
-      return x.brakes_mps2 < little_braking_mps2;
-    };
     const auto surely_goes_on =
         car.speed_mps * car.speed_mps > 2 * surely_goes_on_mps2 * line_m;
-    if (all_of_it(is_past) || (surely_goes_on && all_of_it(can_stay_off)))
+    const auto can_stay_off = [&](const crossing_user& x) {
+      const auto there_s = soonest_s(way(x.from_m - car.front_m), car);
+      return x.brakes_mps2 < little_braking_mps2
+             && (surely_goes_on || there_s + is_seen_there_s < x.enter_s);
+    };
+    if (all_of_it(is_past) || all_of_it(can_stay_off))
       *free = user.body;
   }
   assert(!last.waits || last.before[0] == 0);

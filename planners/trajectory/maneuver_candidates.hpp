@@ -68,7 +68,7 @@ double stopping_m(const crossing_car& car);
 ///          whom it does by the plan in use and cannot stop any more: they have
 ///          just come in sight, or the plan was made elsewhere. So it does
 ///          before those who have to brake little, where it would have to brake
-///          hard.
+///          hard or is on all places well before them.
 /// @param when_s  When the plan has made a way from the car on; infinite: it
 ///                does not.
 crossing_choice going_on(crossing_choice last,

@@ -181,9 +181,9 @@ TEST_CASE(
   const auto never_comes = [](double) { return speed_constraints::never; };
   // At 10 m/s it stops within 16.7 m by 3 m/s².
   const auto goes_on = [&](double line_m, double brakes_mps2,
-                           double brakes_later_mps2) {
-    auto here = user(line_m + 4, line_m + 9, 2, 5, true, 1);
-    auto later = user(line_m + 14, line_m + 19, 3, 6, true, 1);
+                           double brakes_later_mps2, double more_s = 0.0) {
+    auto here = user(line_m + 4, line_m + 9, 2 + more_s, 5, true, 1);
+    auto later = user(line_m + 14, line_m + 19, 3 + more_s, 6, true, 1);
     here.brakes_mps2 = brakes_mps2;
     later.brakes_mps2 = brakes_later_mps2;
     return going_on({}, std::vector{here, later}, fast, straight_on,
@@ -192,6 +192,7 @@ TEST_CASE(
   };
   CHECK(goes_on(16, 1.4, 1.0));
   CHECK_FALSE(goes_on(17, 1.4, 1.0)); // others think that it will stop
+  CHECK(goes_on(17, 1.4, 1.0, 1.5));  // and see it on the place before that
   CHECK_FALSE(goes_on(16, 1.6, 1.0));
   CHECK_FALSE(goes_on(16, 1.4, 1.6));
 }
