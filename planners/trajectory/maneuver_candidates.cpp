@@ -157,6 +157,12 @@ minded_cars find_minded(std::span<const crossing_user> users,
   return found;
 }
 
+/// @returns the way to rest, braking as hard as cars can.
+double hardest_stop_m(const crossing_car& car) {
+  constexpr auto hardest_mps2 = 6.0;
+  return car.speed_mps * car.speed_mps / (2 * hardest_mps2);
+}
+
 /// @returns whether it can be driven at all.
 bool add_windows(const minded_cars& minded, const crossing_car& car,
                  crossing_order& order) {
@@ -166,8 +172,9 @@ bool add_windows(const minded_cars& minded, const crossing_car& car,
     const auto& [line_m, clear_m, user, bit] = minded.places[i];
     const auto before = (order.choice >> bit & 1U) != 0;
     if (before && minded.cars[bit].committed
-        && user->brakes_mps2 < braking_for_begun_mps2)
-      continue; // it lets the car pass
+        && (user->brakes_mps2 < braking_for_begun_mps2
+            || line_m < hardest_stop_m(car)))
+      continue; // it lets the car pass, or has to
     auto& window = order.windows[order.count++];
     if (before) {
       window = {clear_m, -speed_constraints::never,
@@ -244,11 +251,21 @@ crossing_choice going_on(crossing_choice last,
                          const std::function<double(double)>& way,
                          const std::function<double(double)>& when_s) {
   assert(way && when_s);
+  const auto line_of = [&](const crossing_user& x) {
+    return way(x.from_m - car.front_m);
+  };
+  auto first_m = speed_constraints::never; // of places before which it may stop
+  for (const auto& x : users)
+    if (x.goes_first && line_of(x) >= 0)
+      first_m = std::min(first_m, line_of(x));
+  if (last.waits || first_m > stopping_m(car))
+    return last;
+  const auto surely_goes_on =
+      car.speed_mps * car.speed_mps > 2 * surely_goes_on_mps2 * first_m;
+  const auto seen_there_s = soonest_s(first_m, car) + is_seen_there_s;
   for (const auto& user : users) {
-    const auto line_m = way(user.from_m - car.front_m);
     const auto free = std::ranges::find(last.before, 0U);
-    if (last.waits || free == last.before.end() || !user.goes_first
-        || line_m < 0 || line_m > stopping_m(car)
+    if (free == last.before.end() || !user.goes_first || line_of(user) < 0
         || last.goes_before(user.body))
       continue;
     const auto all_of_it = [&](const auto& holds) {
@@ -259,14 +276,12 @@ crossing_choice going_on(crossing_choice last,
     const auto is_past = [&](const crossing_user& x) {
       return when_s(way(x.to_m + car.rear_m)) < x.enter_s;
     };
-    const auto surely_goes_on =
-        car.speed_mps * car.speed_mps > 2 * surely_goes_on_mps2 * line_m;
     const auto can_stay_off = [&](const crossing_user& x) {
-      const auto there_s = soonest_s(way(x.from_m - car.front_m), car);
       return x.brakes_mps2 < little_braking_mps2
-             && (surely_goes_on || there_s + is_seen_there_s < x.enter_s);
+             && (surely_goes_on || seen_there_s < x.enter_s);
     };
-    if (all_of_it(is_past) || all_of_it(can_stay_off))
+    if ((line_of(user) <= stopping_m(car) && all_of_it(is_past))
+        || all_of_it(can_stay_off))
       *free = user.body;
   }
   assert(!last.waits || last.before[0] == 0);
