@@ -58,8 +58,9 @@ struct minded_cars {
   struct car {
     std::uint32_t body;
     double enter_s;
-    double gap_s;   // to leave it when the own car goes before it, ...
-    bool committed; // ... and cannot wait for it any more
+    double gap_s;     // to leave it when the own car goes before it, ...
+    bool committed;   // ... and cannot wait for it any more, ...
+    bool cannot_stop; // ... or not even by braking as hard as it can
   };
   std::array<minded_place, crossing_order::most_windows> places;
   std::size_t count = 0;
@@ -97,7 +98,7 @@ void find_cars(std::span<const crossing_user> users, const crossing_car& car,
       all[count++] = {user.body, user.enter_s,
                       car.is_impatient && may_be_asked(user) ? gap_asked_s
                                                              : gap_to_begin_s,
-                      false};
+                      false, false};
   }
   std::ranges::sort(all.begin(), all.begin() + count, {}, [](const auto& x) {
     return std::pair{x.enter_s, x.body};
@@ -123,6 +124,12 @@ double waiting_line_m(double line_m, bool is_taken, const crossing_car& car,
   return std::max(softly_m > line_m + worth_it_m ? softly_m : line_m, 0.0);
 }
 
+/// @returns the way to rest, braking as hard as cars can.
+double hardest_stop_m(const crossing_car& car) {
+  constexpr auto hardest_mps2 = 6.0;
+  return car.speed_mps * car.speed_mps / (2 * hardest_mps2);
+}
+
 minded_cars find_minded(std::span<const crossing_user> users,
                         const crossing_car& car,
                         const std::function<double(double)>& way,
@@ -138,15 +145,19 @@ minded_cars find_minded(std::span<const crossing_user> users,
     const auto line_m = line_of(user);
     for (std::size_t i = 0; i < found.car_count; ++i) {
       auto& x = found.cars[i];
-      if (x.body != user.body || !is_minded(user, line_m, car)
-          || found.count == found.places.size())
+      if (x.body != user.body)
+        continue;
+      const auto before = last.goes_before(x.body);
+      const auto way_m = way(user.from_m - car.front_m);
+      // On one of its places the car does not stop before the next one.
+      const auto cannot_stop =
+          way_m < 0 ? car.speed_mps > slow_mps : hardest_stop_m(car) > way_m;
+      x.cannot_stop = x.cannot_stop || (before && cannot_stop);
+      if (!is_minded(user, line_m, car) || found.count == found.places.size())
         continue;
       found.places[found.count++] = {line_m, way(user.to_m + car.rear_m), &user,
                                      i};
-      const auto before = last.goes_before(x.body);
-      x.committed =
-          x.committed
-          || (before && stopping_m(car) > way(user.from_m - car.front_m));
+      x.committed = x.committed || (before && stopping_m(car) > way_m);
       if (before)
         x.gap_s = x.committed          ? gap_at_last_s
                   : may_be_asked(user) ? std::min(x.gap_s, gap_asked_s)
@@ -155,12 +166,6 @@ minded_cars find_minded(std::span<const crossing_user> users,
   }
   assert(found.car_count == 0 || found.count > 0);
   return found;
-}
-
-/// @returns the way to rest, braking as hard as cars can.
-double hardest_stop_m(const crossing_car& car) {
-  constexpr auto hardest_mps2 = 6.0;
-  return car.speed_mps * car.speed_mps / (2 * hardest_mps2);
 }
 
 /// @returns whether it can be driven at all.
@@ -173,7 +178,7 @@ bool add_windows(const minded_cars& minded, const crossing_car& car,
     const auto before = (order.choice >> bit & 1U) != 0;
     if (before && minded.cars[bit].committed
         && (user->brakes_mps2 < braking_for_begun_mps2
-            || line_m < hardest_stop_m(car)))
+            || minded.cars[bit].cannot_stop))
       continue; // it lets the car pass, or has to
     auto& window = order.windows[order.count++];
     if (before) {

@@ -162,7 +162,7 @@ TEST_CASE(
     "who can stay off by braking firmly lets a car pass that has begun to "
     "go before it and cannot stop any more") {
   const crossing_car fast{4, 1, 10, 14, 1.5};
-  auto other = user(12, 17, 0.5, 3, true, 1);
+  auto other = user(14, 19, 0.5, 3, true, 1);
   const auto goes = [&](const crossing_choice& last) {
     return lists(orders({other}, last, 16, fast), 1);
   };
@@ -172,6 +172,10 @@ TEST_CASE(
   CHECK_FALSE(goes({}));
   other.brakes_mps2 = 2.6;
   CHECK_FALSE(goes({.before = {1}}));
+  // At 10 m/s it does not stop within 8 m at all.
+  other = user(12, 17, 0.5, 3, true, 1);
+  CHECK(goes({.before = {1}}));
+  CHECK_FALSE(goes({}));
 }
 
 TEST_CASE(
