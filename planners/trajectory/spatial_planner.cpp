@@ -164,8 +164,7 @@ bool spatial_planner::plan_path(const scene& at, plan_report& report,
   assert(way_m_ >= 0 && way_m_ <= path_->path().length_m());
   if (!path_->settled()) // it knows nothing of what is new
     for (const auto& body : bodies_)
-      if (meets(body))
-        blocked_s_m_ = std::min(blocked_s_m_, body.from_m);
+      blocked_s_m_ = std::min(blocked_s_m_, meets_m(body));
   return true;
 }
 
@@ -197,19 +196,21 @@ double spatial_planner::lane_m(double s_m) const {
                                                  : bodies_.front().from_m);
 }
 
-bool spatial_planner::meets(const lane_obstacle& body) const {
+// Where the front is when the car would touch a body, beside which it may be
+// already; never: infinity.
+double spatial_planner::meets_m(const lane_obstacle& body) const {
   constexpr auto step_m = 0.5;
   assert(!path_->path().empty());
   assert(!(body.from_m > body.to_m));
   const auto may_stop = body.from_m > s_m_ + style_.front_m;
   const auto half_m = car_.width_m / 2 + (may_stop ? closest_m : 0.0);
-  for (auto s = body.from_m - style_.front_m; s < body.to_m + car_.rear_m;
-       s += step_m) {
+  for (auto s = std::max(s_m_, body.from_m - style_.front_m);
+       s < body.to_m + car_.rear_m; s += step_m) {
     const auto d = path_->path().at_s(s).x.d_m;
     if (d - half_m < body.high_m && d + half_m > body.low_m)
-      return true;
+      return s + style_.front_m;
   }
-  return false;
+  return speed_constraints::never;
 }
 
 // A body that moves narrows the lane where the car will be beside it.

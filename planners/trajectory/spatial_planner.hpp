@@ -58,7 +58,7 @@ private:
   void publish(time_point now, world::trajectory& out) const;
   void list_bodies(const scene& at);
   double lane_m(double s_m) const;
-  bool meets(const lane_obstacle& body) const;
+  double meets_m(const lane_obstacle& body) const;
   double way_from_car(double s_m) const;
   std::size_t most() const {
     return static_cast<std::size_t>(params_.candidates);
