@@ -36,7 +36,7 @@ constexpr auto turning_rad = 0.5;
 
 /// Nobody turns before another who comes to the place sooner after it than
 /// this, s; who would have to give way brakes at least so.
-constexpr auto close_s = 1.0, slows_down_mps2 = 1.0;
+constexpr auto close_s = 1.5, slows_down_mps2 = 1.0;
 
 /// Who comes later than this to a zone that a car is on already can brake, s.
 constexpr auto soon_s = 2.0;
