@@ -162,6 +162,63 @@ TEST_CASE("beside a body the car keeps its distance, on the side it was told") {
   }
 }
 
+TEST_CASE(
+    "in a bend no corner of a car that the corridor holds comes near to a "
+    "body, however it stands") {
+  const auto turn_left = [](double radius_m) {
+    std::vector<point> points;
+    for (auto x = -60.0; x < 0; x += 2)
+      points.push_back({x, 0});
+    for (auto a = 0.0; a < 1.5; a += 0.1)
+      points.push_back({radius_m * std::sin(a), radius_m * (1 - std::cos(a))});
+    return std::make_shared<const world::route>(
+        "bend", std::vector{world::lane{"bend", points, 2.5, {{0, 10}}, {}, 0}},
+        std::vector<std::size_t>{0}, false);
+  };
+  test::dice dice{21};
+  auto held = 0;
+  for (auto i = 0; i < 20'000; ++i) {
+    const auto way = turn_left(dice.between(9, 20));
+    const reference_line line{way};
+    const auto from = way->length_m() - 12, edge = dice.between(-2.0, -0.9);
+    const auto is_left = dice.between(0, 1) < 0.5; // of the body
+    const lane_obstacle body{from, from + 2, is_left ? -2.5 : -edge,
+                             is_left ? edge : 2.5, 0};
+    corridor room;
+    room.open(line, from - 20, 0.5, steps);
+    room.pass(body, is_left ? side_of_road::left : side_of_road::right);
+    const auto k = static_cast<std::size_t>(dice.between(30, 46));
+    const auto d = dice.between(-1, 1), turn = dice.between(-0.15, 0.15);
+    if (!std::ranges::all_of(room.discs(), [&](const auto& disc) {
+          const auto y = d + disc.ahead_m * std::sin(turn);
+          return y >= disc.lo_m[k] && y <= disc.hi_m[k];
+        }))
+      continue;
+    ++held;
+    const auto s = from - 20 + 0.5 * static_cast<double>(k);
+    const auto here = way->path().at(s);
+    const auto heading = here.heading_rad + turn;
+    const point along{std::cos(heading), std::sin(heading)};
+    const point left{-along.y_m, along.x_m};
+    const auto axle =
+        here.at
+        + d * point{-std::sin(here.heading_rad), std::cos(here.heading_rad)};
+    for (auto x = -1.0825; x <= 4.0175; x += 0.3)
+      for (const auto y : {-half_car_m, half_car_m}) {
+        const auto on = way->path().project(axle + x * along + y * left, s + x);
+        if (on.s_m < body.from_m || on.s_m > body.to_m)
+          continue;
+        CAPTURE(edge);
+        CAPTURE(x);
+        if (is_left)
+          CHECK(on.d_m > edge + 0.05);
+        else
+          CHECK(on.d_m < -edge - 0.05);
+      }
+  }
+  CHECK(held > 1000);
+}
+
 TEST_CASE("between two bodies both keep the car off, whichever comes first") {
   const reference_line line{test::straight(200, {{0, 10}})};
   const lane_obstacle left{30, 34, 0.9, 2, 0}, right{30, 34, -2, -0.9, 0};
