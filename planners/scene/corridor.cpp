@@ -11,20 +11,19 @@
 namespace sofof::planners {
 namespace {
 
-/// A part of the car: a disc, or the axle's centre, and what of the car is
-/// farthest from it along the car.
+/// A part of the car: a disc, or the axle's centre.
 struct part {
-  double ahead_m, radius_m, tip_m;
+  double ahead_m, radius_m;
 };
 
 // Three discs cover 5.10 m × 1.89 m from 1.0825 m behind the rear axle on,
 // to within 4 mm at the corners.
 constexpr double disc_radius_m = 1.27;
 constexpr std::array<part, ocp::path_rows::most_discs> parts{
-    {{0, 0, 0},
-     {-0.23, disc_radius_m, -1.0825},
-     {1.47, disc_radius_m, 1.47},
-     {3.17, disc_radius_m, 4.0175}}};
+    {{0, 0},
+     {-0.23, disc_radius_m},
+     {1.47, disc_radius_m},
+     {3.17, disc_radius_m}}};
 
 /// Knots are the same when they are so near, in steps.
 constexpr double same_knot = 1e-6;
@@ -67,6 +66,15 @@ double drift_m(double ahead_m, double heading_rad, double curvature_1pm) {
 
 } // namespace
 
+double corridor::swing_m(double bends_1pm) {
+  constexpr auto front_m = 4.0175; // from the axle to the bumper
+  constexpr auto last_disc_m = parts.back().ahead_m;
+  assert(bends_1pm >= 0);
+  return std::min(disc_excess_m,
+                  bends_1pm * (front_m * front_m - last_disc_m * last_disc_m)
+                      / 2);
+}
+
 // Most of the lane is the one of the cycle before.
 void corridor::open(const reference_line& line, double s_m, double ds_m,
                     int steps) {
@@ -104,7 +112,7 @@ void corridor::open(const reference_line& line, double s_m, double ds_m,
 void corridor::measure_lane(std::size_t part, int from, int to) {
   assert(line_ && part < rows);
   assert(from >= 0 && to <= steps_);
-  const auto ahead_m = parts[part].ahead_m, radius_m = parts[part].radius_m;
+  const auto [ahead_m, radius_m] = parts[part];
   for (auto k = from; k <= to; ++k) {
     const auto s = s_m_ + k * ds_m_;
     const auto room =
@@ -142,16 +150,12 @@ void corridor::pass(const lane_obstacle& body, side_of_road side) {
       if (at < body.from_m - reach || at > body.to_m + reach)
         continue;
       const auto bow = line_->bow_m(s, p.ahead_m);
-      // In a bend corners swing out farther than the middles of discs.
-      const auto swing = line_->bow_m(s, p.tip_m) - bow;
-      const auto out = side == side_of_road::left ? swing : -swing;
-      const auto half_m =
-          p.radius_m - disc_excess_m + std::clamp(out, 0.0, disc_excess_m);
-      const auto gap = passing_gap_m - from_gap + half_m;
+      const auto gap = passing_gap_m - from_gap + p.radius_m - disc_excess_m;
       // Who moves may be in its own lane by then.
       constexpr auto far_m = 1e3;
       const auto stands = std::abs(body.speed_mps) < stands_below_mps;
-      const auto near = stands ? touching_m + half_m : -far_m;
+      const auto near =
+          stands ? touching_m + p.radius_m - disc_excess_m : -far_m;
       if (side == side_of_road::left) {
         near_right_[j][k] =
             std::max(near_right_[j][k], body.high_m + near + bow);

@@ -29,6 +29,11 @@ public:
   /// Of that, the gap.
   static constexpr double passing_gap_m = 0.2;
 
+  /// @param bends_1pm  Curvature of the line away from a body, >= 0.
+  /// @returns how much farther than its sides the car's front corner comes to
+  /// a body on the outer side of a bend, m: that is to be added to the body.
+  static double swing_m(double bends_1pm);
+
   /// The free lane along the knots s_m + k · ds_m, k = 0..steps. The line
   /// itself always fits.
   void open(const reference_line& line, double s_m, double ds_m, int steps);

@@ -364,6 +364,23 @@ bool scene_interpreter::has_time(const own_place& me, const near& where,
                               {b.from_m, b.to_m}, coming_);
 }
 
+/// In a bend the car's front corner comes nearer to what is outside.
+void scene_interpreter::add_swing(body_footprint& b) const {
+  constexpr auto looked_at_every_m = 1.0, car_m = 5.0;
+  auto left_1pm = 0.0, right_1pm = 0.0;
+  for (auto s = b.from_m - car_m; s <= b.to_m; s += looked_at_every_m) {
+    const auto on = way_->closed() ? s : std::clamp(s, 0.0, way_->length_m());
+    const auto bends_1pm = way_->path().at(on).curvature_1pm;
+    left_1pm = std::max(left_1pm, bends_1pm);
+    right_1pm = std::max(right_1pm, -bends_1pm);
+  }
+  assert(b.low_m <= b.high_m);
+  if (b.low_m + b.high_m < 0)
+    b.high_m += corridor::swing_m(left_1pm);
+  else
+    b.low_m -= corridor::swing_m(right_1pm);
+}
+
 void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
   beside_.clear();
   std::optional<lane_obstacle> looks_past;
@@ -377,6 +394,7 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
     if (!print)
       continue;
     auto b = *print;
+    add_swing(b);
     const auto& x = others_[where.who].x;
     if (others_[where.who].is_crossing && !is_along(b.cosine))
       continue;

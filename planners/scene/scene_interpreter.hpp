@@ -99,6 +99,7 @@ private:
                                               const near& where) const;
   lead_vehicle leading(const own_place& me, const track& x,
                        const body_footprint& b, double pull_out_m) const;
+  void add_swing(body_footprint& b) const;
   void find_bodies(const own_place& me, driving_scene& out);
   double corridor_m() const {
     return params_.car.width_m / 2 + params_.margin_m;

@@ -178,12 +178,14 @@ TEST_CASE(
   test::dice dice{21};
   auto held = 0;
   for (auto i = 0; i < 20'000; ++i) {
-    const auto way = turn_left(dice.between(9, 20));
+    const auto radius = dice.between(9, 20);
+    const auto way = turn_left(radius);
     const reference_line line{way};
     const auto from = way->length_m() - 12, edge = dice.between(-2.0, -0.9);
-    const auto is_left = dice.between(0, 1) < 0.5; // of the body
-    const lane_obstacle body{from, from + 2, is_left ? -2.5 : -edge,
-                             is_left ? edge : 2.5, 0};
+    const auto is_left = dice.between(0, 1) < 0.5; // of a body outside
+    const lane_obstacle body{
+        from, from + 2, is_left ? -2.5 : -edge,
+        is_left ? edge + corridor::swing_m(1 / radius) : 2.5, 0};
     corridor room;
     room.open(line, from - 20, 0.5, steps);
     room.pass(body, is_left ? side_of_road::left : side_of_road::right);
