@@ -58,6 +58,21 @@ point offset(const world::path_point& p, double along_m, double left_m) {
   return p.at + point{along_m * c - left_m * s, along_m * s + left_m * c};
 }
 
+/// Leaves out what is behind the lead.
+void put_in_order(const std::optional<lane_obstacle>& looks_past,
+                  driving_scene& out) {
+  assert(!out.lead || out.lead->speed_mps >= 0);
+  if (out.lead)
+    std::erase_if(out.beside, [&](const lane_obstacle& o) {
+      return o.from_m > out.lead->rear_s_m;
+    });
+  if (looks_past)
+    out.beside.push_back(*looks_past);
+  std::ranges::sort(out.beside, {}, [](const lane_obstacle& o) {
+    return std::tuple{o.from_m, o.low_m};
+  });
+}
+
 } // namespace
 
 scene_interpreter::scene_interpreter(std::shared_ptr<const lane_network> lanes,
@@ -310,6 +325,19 @@ lead_vehicle scene_interpreter::leading(const own_place& me, const track& x,
           b.speed_mps > 0 ? std::min(x.accel_mps2 * b.cosine, 0.0) : 0};
 }
 
+/// @returns what keeps a car where it sees past what it is going to overtake.
+std::optional<lane_obstacle>
+scene_interpreter::look_past_lead(const own_place& me, const track& x,
+                                  const body_footprint& b,
+                                  const lead_vehicle& lead) const {
+  const auto stands =
+      look_past(b.high_m, lead.rear_s_m, b.half_lane_m, params_.car);
+  assert(b.from_m <= b.to_m);
+  const auto can_steer =
+      stands && stands->from_m >= me.s_m + params_.car.front_m;
+  return can_steer || looks_past_ == x.id ? stands : std::nullopt;
+}
+
 /// @returns whether a body blocks the lane by itself, where the opposite one
 /// may be used: no crossing is near, and nothing else stands close behind it,
 /// or all has stood for so long that it is no queue.
@@ -439,27 +467,14 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
                          is_overtaken                           ? looks_past_m
                          : x.stands() && certainly_lacks_m <= 0 ? pulls_out_m
                                                                 : 0.0);
-      looks_past = is_overtaken ? look_past(print->high_m, out.lead->rear_s_m,
-                                            b.half_lane_m, params_.car)
+      looks_past = is_overtaken ? look_past_lead(me, x, *print, *out.lead)
                                 : std::nullopt;
-      if (looks_past && looks_past->from_m < front_m
-          && looks_past_ != x.id) // it cannot steer there any more
-        looks_past.reset();
       looks_past_ = looks_past ? x.id : 0;
     }
   }
   std::ranges::sort(beside_);
   were_beside_ = beside_;
-  assert(!out.lead || out.lead->speed_mps >= 0);
-  if (out.lead)
-    std::erase_if(out.beside, [&](const lane_obstacle& o) {
-      return o.from_m > out.lead->rear_s_m;
-    });
-  if (looks_past)
-    out.beside.push_back(*looks_past);
-  std::ranges::sort(out.beside, {}, [](const lane_obstacle& o) {
-    return std::tuple{o.from_m, o.low_m};
-  });
+  put_in_order(looks_past, out);
 }
 
 } // namespace sofof::planners

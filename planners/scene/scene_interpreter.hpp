@@ -99,6 +99,10 @@ private:
                                               const near& where) const;
   lead_vehicle leading(const own_place& me, const track& x,
                        const body_footprint& b, double pull_out_m) const;
+  std::optional<lane_obstacle> look_past_lead(const own_place& me,
+                                              const track& x,
+                                              const body_footprint& b,
+                                              const lead_vehicle& lead) const;
   void add_swing(body_footprint& b) const;
   void find_bodies(const own_place& me, driving_scene& out);
   double corridor_m() const {
