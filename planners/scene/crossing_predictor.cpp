@@ -37,6 +37,8 @@ constexpr auto turning_rad = 0.5;
 /// Nobody turns before another who comes to the place sooner after it than
 /// this, s; who would have to give way brakes at least so.
 constexpr auto close_s = 1.5, slows_down_mps2 = 1.0;
+/// Who is slower than this may as well be moving up to its line, m/s.
+constexpr auto creeps_mps = 1.0;
 
 /// Who comes later than this to a zone that a car is on already can brake, s.
 constexpr auto soon_s = 2.0;
@@ -197,6 +199,9 @@ bool crossing_predictor::gives_way(const crossing_viewer& me, const track& x,
   if (way_m <= 0)
     return false; // it is there
   const auto brakes = x.accel_mps2 < -slows_down_mps2;
+  if (me.speed_mps < stands_below_mps && v > creeps_mps && !brakes
+      && when.enter_s < close_s)
+    return false; // who stands does not set off before who comes anyway
   if (v * v > 2 * (brakes ? yielding_decel_mps2 : begins_by_mps2) * way_m) {
     // It will be there, unless it does not turn into the own way: who has to
     // give way, and does not, goes elsewhere. That is for sure where it comes

@@ -1,8 +1,6 @@
 // All vehicles at a crossing, planned together.
-#include "planners/crossing/conductor.hpp"
-
+#include "tests/planners/conducted_cars.hpp"
 #include "tests/support/dice.hpp"
-#include "tests/support/toy_streets.hpp"
 
 #include <doctest/doctest.h>
 
@@ -19,86 +17,9 @@ using doctest::Approx;
 
 namespace {
 
+using test::conducted_cars;
+
 constexpr std::size_t east = 1, north = 2, west = 3, south = 4;
-
-/// Four arms, whose cars drive exactly as they are told.
-struct conducted_cars {
-  struct car {
-    station_id who;
-    route_profile_ptr way;
-    double s_m = 0, speed_mps = 0;
-    std::optional<world::trajectory> drive;
-  };
-
-  conducted_cars()
-      : map{toy::cross_roads(true)}, lanes{std::make_shared<const lane_network>(
-                                         map)},
-        leads{crossing_ways{lanes, {{0, 0}, 80}, body}, {}} {}
-
-  void add(std::uint32_t who, std::size_t in, std::size_t out, double s_m,
-           double speed_mps = 0) {
-    auto& way = ways[{in, out}];
-    if (!way)
-      way = std::make_shared<const route_profile>(
-          toy::make_route(map, {in, 0, out}), comfort_limits{});
-    cars.push_back({station_id{who}, way, s_m, speed_mps, {}});
-    std::ranges::sort(cars, {}, &car::who);
-  }
-
-  std::vector<crossing_advice> plan() {
-    std::vector<approaching_car> all;
-    for (const auto& x : cars)
-      all.push_back(
-          {x.who, x.way, x.s_m, x.speed_mps, 0, true, x.drive, false});
-    std::vector<crossing_advice> out;
-    leads.plan(now, all, out);
-    for (auto& x : cars)
-      for (const auto& a : out)
-        if (a.who == x.who && !a.drive.empty())
-          x.drive = a.drive;
-    return out;
-  }
-
-  /// Half a second passes; who has come through is gone.
-  void go_on() {
-    constexpr duration step = 100ms;
-    for (int k = 0; k < 5; ++k) {
-      now += step;
-      for (auto& x : cars) {
-        auto s = x.s_m + to_seconds(step) * x.speed_mps;
-        if (x.drive && now <= x.drive->end())
-          s = std::max(x.s_m, x.drive->at(now).s_m);
-        x.speed_mps = (s - x.s_m) / to_seconds(step);
-        x.s_m = s;
-      }
-      for (std::size_t i = 0; i < cars.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j)
-          touches += overlap(outline(cars[i]), outline(cars[j]));
-      std::erase_if(cars, [&](const car& x) {
-        if (!x.drive || now < x.drive->end())
-          return false;
-        arrived_s[x.who] = to_seconds(now - time_point{});
-        return true;
-      });
-    }
-  }
-
-  oriented_box outline(const car& x) const {
-    const auto p =
-        x.way->line.way().path().at(x.s_m + (body.front_m - body.rear_m) / 2);
-    return {p.at, p.heading_rad, body.front_m + body.rear_m, body.width_m};
-  }
-
-  world::vehicle_params body;
-  world::road_map map;
-  std::shared_ptr<const lane_network> lanes;
-  conductor leads;
-  std::map<std::pair<std::size_t, std::size_t>, route_profile_ptr> ways;
-  std::vector<car> cars;
-  time_point now;
-  int touches = 0;
-  std::map<station_id, double> arrived_s;
-};
 
 } // namespace
 
