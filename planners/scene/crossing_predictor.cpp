@@ -203,9 +203,9 @@ bool crossing_predictor::gives_way(const crossing_viewer& me, const track& x,
       && when.enter_s < close_s)
     return false; // who stands does not set off before who comes anyway
   if (v * v > 2 * (brakes ? yielding_decel_mps2 : begins_by_mps2) * way_m) {
-    // It will be there, unless it does not turn into the own way: who has to
-    // give way, and does not, goes elsewhere. That is for sure where it comes
-    // towards the car; else it is for a car that could only brake hard.
+    // It will be there, unless it goes elsewhere, as who has to give way and
+    // does not slow down. That is believed of who comes towards the car, and
+    // of everybody by a car that could only brake hard.
     const auto own_way_m = std::max(0.0, own.on.from_m - me.front_m);
     const auto goes_on =
         me.speed_mps * me.speed_mps > 2 * begins_by_mps2 * own_way_m;
