@@ -35,7 +35,7 @@ public:
   struct rules {
     claim_book::rules claims;
     duration claims_before = std::chrono::milliseconds{4500}; ///< It enters.
-    duration told = std::chrono::seconds{18}; ///< Of a drive, at most.
+    duration told = std::chrono::seconds{28}; ///< Of a drive, at most.
     duration advice_holds = std::chrono::milliseconds{150};
     double late_s = 0.35; ///< Later or sooner than its drive, it gives it up.
     double near_m = 150;  ///< Others that are farther away do not matter.

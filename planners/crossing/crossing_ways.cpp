@@ -74,35 +74,42 @@ void crossing_ways::list_ways(known_route& route) {
   // An alias: who owns it lives in the profile.
   const world::unrolled_route way{world::route_ptr{route.way, &line},
                                   lanes_->meetings()};
-  const auto add = [&](double from_m, double to_m) {
-    assert(to_m >= from_m);
-    crossing_way x{route.way, from_m - half_m, to_m + half_m};
+  struct stretch {
+    double from_m, to_m;
+    std::optional<std::size_t> ring; // on which it ends
+    bool is_round;
+  };
+  std::optional<stretch> one;
+  const auto add = [&] {
+    assert(one->to_m >= one->from_m);
+    crossing_way x{route.way, one->from_m - half_m, one->to_m + half_m};
+    x.is_round = one->is_round;
     find_lanes(line, x);
     route.ways.push_back(ways_.size());
     ways_.push_back(std::move(x));
   };
-  auto from_m = 0.0, to_m = 0.0;
-  auto has_begun = false;
   way.for_zones(0, line.length_m(), [&](const world::zone& z) {
     assert(z.to_m >= z.from_m);
     const auto middle = line.path().at((z.from_m + z.to_m) / 2).at;
-    if (distance_m(middle, within_.centre) > within_.radius_m
-        || lanes_->is_on_roundabout(z.side)
-        || lanes_->is_on_roundabout(z.other_side()))
+    if (distance_m(middle, within_.centre) > within_.radius_m)
       return true;
-    if (has_begun && z.from_m > to_m + one_crossing_m) {
-      add(from_m, to_m);
-      has_begun = false;
+    const auto own = lanes_->roundabout(z.side);
+    const auto ring = own ? own : lanes_->roundabout(z.other_side());
+    if (one && z.from_m > one->to_m + one_crossing_m
+        && !(ring && ring == one->ring)) {
+      add();
+      one.reset();
     }
-    if (!has_begun)
-      from_m = to_m = z.from_m;
-    has_begun = true;
-    to_m = std::max(to_m, z.to_m);
+    if (!one)
+      one = {z.from_m, z.from_m, ring, false};
+    one->to_m = std::max(one->to_m, z.to_m);
+    one->ring = ring;
+    one->is_round = one->is_round || ring;
     return true;
   });
   assert(half_m > 0);
-  if (has_begun)
-    add(from_m, to_m);
+  if (one)
+    add();
 }
 
 std::optional<crossing_ways::place>

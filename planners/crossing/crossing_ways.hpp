@@ -27,11 +27,12 @@ struct crossing_way {
   std::size_t lane = 0;     ///< Of the map, on which it comes, ...
   double lane_ends_m = 0;   ///< ... until there.
   std::size_t out_lane = 0; ///< On which it goes on.
+  bool is_round = false;    ///< It goes through a roundabout.
 };
 
-/// All ways that were asked for through the crossings of an area, but for its
-/// roundabouts, and how bodies on them meet: computed when first needed, then
-/// kept.
+/// All ways that were asked for through the crossings of an area, and how
+/// bodies on them meet: computed when first needed, then kept. A roundabout is
+/// one crossing: who waited on it would hold up all others.
 class crossing_ways {
 public:
   struct area {
@@ -39,7 +40,8 @@ public:
     double radius_m = 0;
   };
 
-  /// Places that others use belong to one crossing if less lies between them.
+  /// Places that others use belong to one crossing if less lies between them,
+  /// or a roundabout.
   static constexpr double one_crossing_m = 10;
   /// Ways are compared so far before and behind a crossing, m.
   static constexpr double before_m = 80, behind_m = 30;
@@ -66,10 +68,12 @@ public:
   /// one may be somewhere on the other.
   const world::meeting_curve& meet(std::size_t first, std::size_t then);
 
-  /// @returns whether one follows the other, before the crossing or behind it.
+  /// @returns whether one follows the other: before the crossing, behind it, or
+  /// on a roundabout.
   bool follow(std::size_t a, std::size_t b) const {
     return ways_[a].lane == ways_[b].lane
-           || ways_[a].out_lane == ways_[b].out_lane;
+           || ways_[a].out_lane == ways_[b].out_lane
+           || (ways_[a].is_round && ways_[b].is_round);
   }
 
   /// @returns way from a body's middle to its rear axle, m.

@@ -72,7 +72,8 @@ lane_network::lane_network(const world::road_map& map)
     for (const auto& e : meetings_[lane]) {
       assert(e.side < ranks_.size() && e.from_m <= e.to_m);
       ranks_[e.side] = e.rank;
-      rounds_[e.side] = rings.of(lane) < rings.count();
+      if (const auto ring = rings.of(lane); ring < rings.count())
+        rounds_[e.side] = ring;
       begins_[e.side] = {lane, e.from_m};
     }
   std::unordered_map<std::string_view, std::size_t> index;

@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -53,8 +54,14 @@ public:
   /// @returns the right of way of a conflict's side.
   int rank(std::uint32_t side) const { return ranks_[side]; }
 
-  /// @returns whether the lane of a conflict's side is one of a roundabout.
-  bool is_on_roundabout(std::uint32_t side) const { return rounds_[side]; }
+  /// @returns the roundabout that the lane of a conflict's side is part of, by
+  /// its number; nullopt if there is none.
+  std::optional<std::size_t> roundabout(std::uint32_t side) const {
+    return rounds_[side];
+  }
+  bool is_on_roundabout(std::uint32_t side) const {
+    return rounds_[side].has_value();
+  }
 
   /// How a lane comes to a conflict and goes through it.
   struct course {
@@ -129,7 +136,7 @@ private:
 
   world::conflict_sides meetings_;
   std::vector<int> ranks_;        // of all sides
-  std::vector<bool> rounds_;      // likewise, whether on a roundabout
+  std::vector<std::optional<std::size_t>> rounds_; // likewise
   std::vector<placement> begins_; // likewise, where they begin
   std::vector<bend> bends_;       // of each lane
   std::vector<course> courses_;   // of all sides

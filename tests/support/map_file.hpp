@@ -37,6 +37,8 @@ inline std::vector<point> read_points(const toml::node_view<toml::node> list) {
 inline std::vector<std::string>
 read_names(const toml::node_view<toml::node> list) {
   std::vector<std::string> names;
+  if (!list)
+    return names;
   for (auto& item : *list.as_array())
     names.push_back(*item.value<std::string>());
   return names;
@@ -64,13 +66,15 @@ inline map_file read_map(const std::string& file) {
   for (auto& item : *root["lane"].as_array())
     lanes.push_back(read_lane(*item.as_table()));
   std::vector<world::building> buildings;
-  for (auto& item : *root["building"].as_array())
-    buildings.push_back({read_points((*item.as_table())["corners_m"])});
-  auto anchor = root["origin"];
-  const world::geo_origin origin{
-      *anchor["utm_e_m"].value<double>(), *anchor["utm_n_m"].value<double>(),
-      *anchor["utm_zone"].value<int>(), *anchor["lat_deg"].value<double>(),
-      *anchor["lon_deg"].value<double>()};
+  if (root.contains("building"))
+    for (auto& item : *root["building"].as_array())
+      buildings.push_back({read_points((*item.as_table())["corners_m"])});
+  world::geo_origin origin;
+  if (auto anchor = root["origin"])
+    origin = {
+        *anchor["utm_e_m"].value<double>(), *anchor["utm_n_m"].value<double>(),
+        *anchor["utm_zone"].value<int>(), *anchor["lat_deg"].value<double>(),
+        *anchor["lon_deg"].value<double>()};
   map_file result{{*root["name"].value<std::string>(), origin, std::move(lanes),
                    std::move(buildings)},
                   {}};

@@ -51,7 +51,7 @@ planners::claimed_drive drive_of(const messages::decoded_mcm& word,
 }
 
 world::trajectory told_rest(const world::trajectory& drive, time_point now) {
-  constexpr double told_s = 20;
+  constexpr double told_s = 30;
   auto left = world::rest_of(drive, now);
   std::erase_if(left.points, [](const auto& p) { return p.t_s > told_s; });
   if (left.points.size() < 2)

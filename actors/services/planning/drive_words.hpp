@@ -25,7 +25,7 @@ planners::claimed_drive drive_of(const messages::decoded_mcm& word,
                                  const messages::geo_frame& earth,
                                  double rear_m);
 
-/// @returns what is left of a drive, as far as an MCM tells it: 20 s; empty if
+/// @returns what is left of a drive, as far as an MCM tells it: 30 s; empty if
 /// nothing is.
 world::trajectory told_rest(const world::trajectory& drive, time_point now);
 
