@@ -135,11 +135,11 @@ private:
   void drive(const driver& who, const lane_ahead& on) const;
 
   world::conflict_sides meetings_;
-  std::vector<int> ranks_;        // of all sides
+  std::vector<int> ranks_;                         // of all sides
   std::vector<std::optional<std::size_t>> rounds_; // likewise
-  std::vector<placement> begins_; // likewise, where they begin
-  std::vector<bend> bends_;       // of each lane
-  std::vector<course> courses_;   // of all sides
+  std::vector<placement> begins_;                  // likewise, where they begin
+  std::vector<bend> bends_;                        // of each lane
+  std::vector<course> courses_;                    // of all sides
   std::vector<world::path> paths_;
   std::vector<double> half_widths_m_, limits_mps_;
   std::vector<std::vector<std::size_t>> next_, previous_; // of each lane

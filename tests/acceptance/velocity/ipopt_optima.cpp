@@ -1,11 +1,13 @@
 // Optima of velocity problems by Ipopt, to compare those of SOFOF with.
 //
-//   ipopt_optima IN OUT MOST
+//   ipopt_optima IN PLANS OUT MOST
 //
-// Reads a file of `sofof solve` (velocity problems without stops) and writes
-// the first MOST of those that Ipopt finds a solution of, with its cost as
-// their reference. The problem is stated as in docs/planner.md, in all states
-// and controls, with exact derivatives; of several starts the best counts.
+// Reads a file of `sofof solve` (velocity problems without stops) and what that
+// wrote of it (--out), and writes the first MOST of those that Ipopt finds a
+// solution of, with its cost as their reference. The problem is stated as in
+// docs/planner.md, in all states and controls, with exact derivatives. It has
+// many local optima: where a car waits for the one ahead is a choice. Of
+// several starts, the plans among them, the best counts.
 // Reference: Wächter, Biegler, Math. Program. 106, 2006.
 #include <nlohmann/json.hpp>
 
@@ -15,6 +17,8 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -58,6 +62,11 @@ public:
   /// The first guess: the car brakes to a share of its leader's speed, until it
   /// is as far behind as it has to be, and follows it from then on.
   void start_at(double share) { share_ = share; }
+
+  /// Or it drives by these controls.
+  void start_at(std::vector<double> controls) {
+    controls_ = std::move(controls);
+  }
 
   bool is_solved = false;
   double cost = infinite;
@@ -115,7 +124,9 @@ public:
       const auto wanted_a =
           std::clamp((wanted_w - here_w) / closes_m, a_min_, a_max_);
       const auto most = 0.9 * j_max_ / here.v;
-      x[u(k)] = std::clamp((wanted_a - here_a) / ds_, -most, most);
+      x[u(k)] = controls_.empty()
+                    ? std::clamp((wanted_a - here_a) / ds_, -most, most)
+                    : controls_[at(k)];
       const auto next_w = here_w + ds_ * here_a + ds_ * ds_ / 2 * x[u(k)];
       here_w = std::clamp(next_w, 0.01, w_max_[at(k + 1)]);
       here_a += ds_ * x[u(k)];
@@ -193,7 +204,8 @@ public:
                          const Number*, const Number*, Index, const Number*,
                          const Number*, Number value, const Ipopt::IpoptData*,
                          Ipopt::IpoptCalculatedQuantities*) override {
-    is_solved = status == Ipopt::SUCCESS;
+    is_solved =
+        status == Ipopt::SUCCESS || status == Ipopt::STOP_AT_ACCEPTABLE_POINT;
     cost = value;
   }
 
@@ -342,36 +354,45 @@ private:
   std::vector<double> w_max_, w_ref_, kappa_;
   double a_min_ = 0, a_max_ = 0, j_max_ = 0, a_tot_ = 0;
   double share_ = 1;
+  std::vector<double> controls_;
   sparse entries_;
 };
 
 /// @returns the least cost that any start leads to; infinite for none.
 double best_cost(Ipopt::IpoptApplication& solver, const json& file,
-                 const json& one) {
+                 const json& one, const json& plan) {
   auto best = infinite;
-  for (const auto share : {0.95, 0.8, 0.6, 0.3}) {
+  const auto from = [&](const auto& start) {
     Ipopt::SmartPtr<velocity_nlp> problem = new velocity_nlp{file, one};
-    problem->start_at(share);
+    problem->start_at(start);
     solver.OptimizeTNLP(GetRawPtr(problem));
     if (problem->is_solved)
       best = std::min(best, problem->cost);
-  }
+  };
+  const auto controls = plan["u"].get<std::vector<double>>();
+  if (!controls.empty())
+    from(controls);
+  for (const auto share : {0.95, 0.8, 0.6, 0.3})
+    from(share);
   return best;
 }
 
 } // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    std::fprintf(stderr, "ipopt_optima IN OUT MOST\n");
+  if (argc != 5) {
+    std::fprintf(stderr, "ipopt_optima IN PLANS OUT MOST\n");
     return 2;
   }
-  std::ifstream in{argv[1]};
+  std::ifstream in{argv[1]}, plans{argv[2]};
   auto file = json::parse(in);
-  const auto most = std::stoul(argv[3]);
+  const auto most = std::stoul(argv[4]);
   Ipopt::IpoptApplication solver;
-  solver.Options()->SetNumericValue("tol", 1e-9);
-  solver.Options()->SetIntegerValue("max_iter", 300);
+  solver.Options()->SetNumericValue("tol", 1e-7);
+  solver.Options()->SetNumericValue("acceptable_tol", 1e-5);
+  solver.Options()->SetIntegerValue("acceptable_iter", 5);
+  solver.Options()->SetIntegerValue("max_iter", 200);
+  solver.Options()->SetNumericValue("max_cpu_time", 2.0); // of the start
   solver.Options()->SetIntegerValue("print_level", 0);
   solver.Options()->SetStringValue("sb", "yes");
   if (solver.Initialize() != Ipopt::Solve_Succeeded)
@@ -381,7 +402,9 @@ int main(int argc, char** argv) {
   for (const auto& one : file["instances"]) {
     if (kept.size() == most)
       break;
-    const auto cost = best_cost(solver, file, one);
+    std::string plan;
+    std::getline(plans, plan);
+    const auto cost = best_cost(solver, file, one, json::parse(plan));
     if (cost >= infinite) {
       ++without;
       continue;
@@ -391,6 +414,6 @@ int main(int argc, char** argv) {
   }
   std::printf("%zu with an optimum, %zu without\n", kept.size(), without);
   file["instances"] = std::move(kept);
-  std::ofstream{argv[2]} << file;
+  std::ofstream{argv[3]} << file;
   return 0;
 }
