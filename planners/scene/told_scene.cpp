@@ -111,22 +111,29 @@ void list_lead(time_point now, const world::route& way,
   if (it == told.end() || it->drive.empty() || it->drive.to() <= now
       || lead->speed_mps < lead_moves_mps)
     return;
-  const auto says_mps = distance_m(it->drive.at(now).centre,
-                                   it->drive.at(now + told_every).centre)
-                        / to_seconds(told_every);
-  if (says_mps > lead->speed_mps + lead_slower_mps)
-    return;
   const auto& line = way.path();
+  const auto body = it->drive.at(now);
   auto guess_m = lead->rear_s_m;
-  const auto off_m =
-      guess_m - line.project(rear_of(it->drive.at(now)), guess_m).s_m;
+  const auto on = line.project(rear_of(body), guess_m);
+  const auto off_m = guess_m - on.s_m;
   if (std::abs(off_m) > as_told_along_m)
+    return;
+  // Its speed is seen along the own way, on which it may just be turning.
+  const auto turned_rad = body.heading_rad - line.at(on.s_m).heading_rad;
+  const auto says_mps =
+      std::cos(turned_rad)
+      * distance_m(body.centre, it->drive.at(now + told_every).centre)
+      / to_seconds(told_every);
+  if (says_mps > lead->speed_mps + lead_slower_mps)
     return;
   assert(std::isfinite(off_m));
   for (auto t = now; t <= it->drive.to(); t += told_every) {
     const auto on = line.project(rear_of(it->drive.at(t)), guess_m);
-    if (std::abs(on.d_m) > half_m + lead_beside_m)
-      break; // it turns off
+    if (std::abs(on.d_m) > half_m + lead_beside_m) { // it turns off
+      if (out.empty())
+        out.push_back({lead->rear_s_m, 0});
+      break;
+    }
     if (out.empty() || on.s_m + off_m > out.back().s_m + moves_m)
       out.push_back({on.s_m + off_m, to_seconds(t - now)});
     else

@@ -1,8 +1,13 @@
 // Who of those that a car sees keeps what it has claimed.
 #include "planners/scene/told_scene.hpp"
 
+#include "tests/support/toy_streets.hpp"
+
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <optional>
+#include <string>
 #include <vector>
 
 using namespace sofof;
@@ -37,6 +42,26 @@ bool is_kept(double speed_mps, double behind_m) {
   return others[0].has_claimed;
 }
 
+/// @returns where the rear of a lead will be that is seen 30 m down a street to
+/// the east with a speed along it, and tells that it drives with 8 m/s in
+/// another direction, now so far beside the street's middle.
+std::vector<way_moment> told_by_lead(double heading_rad, double beside_m,
+                                     double seen_mps) {
+  const world::road_map map{
+      "street", {}, {toy::straight("lane", {0, 0}, {400, 0})}};
+  const std::vector<std::string> lanes{"lane"};
+  const auto way = map.make_route("lane", lanes, false);
+  const point ahead{std::cos(heading_rad), std::sin(heading_rad)};
+  told_drive x{7, {now, 200ms, {}}, true, {}};
+  for (auto t_s = 0.0; t_s < 4; t_s += 0.2)
+    x.drive.bodies.push_back(
+        {point{30, beside_m} + (2.5 + 8 * t_s) * ahead, heading_rad, 5, 2});
+  const lead_vehicle lead{station_id{7}, 30, seen_mps, 0};
+  std::vector<way_moment> out;
+  list_lead(now, *way, lead, 1.2, std::vector{x}, out);
+  return out;
+}
+
 } // namespace
 
 TEST_CASE("a slow car that is three metres behind what it has claimed does not "
@@ -49,4 +74,17 @@ TEST_CASE("a fast car keeps what it has claimed as long as it is not half a "
           "second late") {
   CHECK(is_kept(10, 4.8));
   CHECK_FALSE(is_kept(10, 5.2));
+}
+
+TEST_CASE("a lead that turns is as fast along the own way as it says") {
+  constexpr auto turned_rad = 1.0; // 4.3 of 8 m/s are along the street
+  CHECK(told_by_lead(turned_rad, 0, 4).size() > 1);
+  CHECK(told_by_lead(turned_rad, 0, 3).empty()); // it brakes
+}
+
+TEST_CASE("a lead that turns off holds nobody up where it is") {
+  const auto told = told_by_lead(-1, -4, 4);
+  REQUIRE(told.size() == 1);
+  CHECK(told[0].s_m == doctest::Approx(30));
+  CHECK(told[0].t_s == 0);
 }
