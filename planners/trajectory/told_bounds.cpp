@@ -9,7 +9,11 @@ namespace sofof::planners {
 namespace {
 
 constexpr double kept_to_s = 0.25;
-constexpr double told_gap_s = 1.0, told_gap_m = 2.5;
+constexpr double told_gap_s = 0.6, told_gap_m = 2.5;
+
+/// Who cannot keep to it comes later by so much at most, if it can. Without a
+/// bound a plan may wait for seconds at a place, which costs it nothing.
+constexpr double late_s = 1.0;
 
 /// Places that are nearer to the car, or to each other, say nothing new.
 constexpr double next_bound_m = 0.3, places_apart_m = 0.2;
@@ -67,10 +71,14 @@ speed_planner::result in_time_or_late(speed_planner& planner,
                                       const ocp::budget& go_on) {
   assert(std::isfinite(way_m));
   auto result = planner.plan(path, way_m, task, go_on);
-  if (!planner.motion().empty() || task.promised.empty())
+  if (task.promised.empty())
     return result;
-  task.later_s = speed_constraints::never;
-  return planner.plan(path, way_m, task, go_on);
+  for (const auto later_s : {late_s, speed_constraints::never})
+    if (planner.motion().empty()) {
+      task.later_s = later_s;
+      result = planner.plan(path, way_m, task, go_on);
+    }
+  return result;
 }
 
 } // namespace sofof::planners
