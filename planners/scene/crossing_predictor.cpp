@@ -122,7 +122,8 @@ void crossing_predictor::judge(const crossing_viewer& me,
           || (when.way_m == 0 && drives_along(x, own.on))
           || (when.is_past && gap_m(x, own.on) > 0))
         continue;
-      if (has_claimed || (takes_part && when.way_m > 0)) {
+      if (has_claimed
+          || (takes_part && (when.way_m > 0 || stays_off(x, own.on)))) {
         is_crossing = true;
         continue;
       }
@@ -295,6 +296,13 @@ void crossing_predictor::foresee(std::span<const other_body> others) {
       foreseen_.push_back({who, when});
     }
   }
+}
+
+/// @returns whether a body on a zone, which begins before bodies touch, can
+/// stop where it is off the own way.
+bool crossing_predictor::stays_off(const track& x, const world::zone& z) const {
+  const auto v = forward_mps(x);
+  return v * v < 2 * begins_by_mps2 * gap_m(x, z);
 }
 
 /// @returns how far a body's outline is from the way of the own body at a zone;

@@ -21,7 +21,7 @@ struct other_body {
   bool is_crossing = false; ///< On or before a zone ahead of the own front.
   bool cuts_in = false; ///< It comes first to a zone that the own front is on.
   /// It has claimed the drive on which it is, or waits for that to bind; the
-  /// latter only as long as it is on no zone.
+  /// latter only as long as it can stay off the own way.
   bool has_claimed = false, takes_part = false;
 };
 
@@ -108,6 +108,7 @@ private:
   bool has_to_give_way(const crossing_viewer& me, const track& x,
                        const conflict_visit& when, const own_zone& own) const;
   bool drives_along(const track& x, const world::zone& z) const;
+  bool stays_off(const track& x, const world::zone& z) const;
   double gap_m(const track& x, const world::zone& z) const;
 
   std::shared_ptr<const lane_network> lanes_;

@@ -347,6 +347,33 @@ TEST_CASE("who merges is crossing first, and then the lead") {
   CHECK(o.seen.crossings.empty());
 }
 
+TEST_CASE(
+    "who waits for its claim is minded once it is in the way, not where a "
+    "zone begins") {
+  const auto map = toy::cross_roads();
+  const auto way = toy::make_route(map, {4, 0, 2});
+  constexpr auto corridor_m = 1.2;
+  crossing_predictor eyes{std::make_shared<const lane_network>(map), way,
+                          corridor_m, 8};
+  std::vector<way_stretch> keep_free;
+  eyes.look_ahead(115, 120, 200, keep_free);
+  const auto users = [&](double front_x_m, double speed_mps) {
+    other_body x;
+    x.x = seen_track({front_x_m - 2.55, -1.75}, 0, speed_mps);
+    x.takes_part = true;
+    std::vector others{x};
+    std::vector<crossing_user> found;
+    std::vector<double> yields;
+    eyes.judge({{}, 115, 120, 5, false}, others, keep_free, found, yields);
+    return found.size();
+  };
+  // The own way is 1.75 m east of the middle, and the zone begins before -1.5
+  // m.
+  CHECK(users(-1.2, 0.8) == 0);
+  CHECK(users(1, 0.8) > 0);
+  CHECK(users(-1.2, 5) > 0); // it cannot stop any more
+}
+
 TEST_CASE("Lehr: through traffic is not kept by whoever has to give way") {
   scene_params params;
   params.judges_crossings = true;
