@@ -114,12 +114,12 @@ void list_lead(time_point now, const world::route& way,
   const auto& line = way.path();
   const auto body = it->drive.at(now);
   auto guess_m = lead->rear_s_m;
-  const auto on = line.project(rear_of(body), guess_m);
-  const auto off_m = guess_m - on.s_m;
+  const auto rear = line.project(rear_of(body), guess_m);
+  const auto off_m = guess_m - rear.s_m;
   if (std::abs(off_m) > as_told_along_m)
     return;
   // Its speed is seen along the own way, on which it may just be turning.
-  const auto turned_rad = body.heading_rad - line.at(on.s_m).heading_rad;
+  const auto turned_rad = body.heading_rad - line.at(rear.s_m).heading_rad;
   const auto says_mps =
       std::cos(turned_rad)
       * distance_m(body.centre, it->drive.at(now + told_every).centre)

@@ -13,7 +13,7 @@ constexpr double told_gap_s = 0.6, told_gap_m = 2.5;
 
 /// Who cannot keep to it comes later by so much at most, if it can. Without a
 /// bound a plan may wait for seconds at a place, which costs it nothing.
-constexpr double late_s = 1.0;
+constexpr double bounded_late_s = 1.0;
 
 /// Places that are nearer to the car, or to each other, say nothing new.
 constexpr double next_bound_m = 0.3, places_apart_m = 0.2;
@@ -73,7 +73,7 @@ speed_planner::result in_time_or_late(speed_planner& planner,
   auto result = planner.plan(path, way_m, task, go_on);
   if (task.promised.empty())
     return result;
-  for (const auto later_s : {late_s, speed_constraints::never})
+  for (const auto later_s : {bounded_late_s, speed_constraints::never})
     if (planner.motion().empty()) {
       task.later_s = later_s;
       result = planner.plan(path, way_m, task, go_on);

@@ -37,7 +37,8 @@ private:
 };
 
 /// Plans within the drive that was promised or, where that is not possible any
-/// more, later: then `later_s` of the task is infinite.
+/// more, up to a second later, or else whenever: then `later_s` of the task is
+/// infinite.
 speed_planner::result in_time_or_late(speed_planner& planner,
                                       const planned_path& path, double way_m,
                                       speed_constraints& task,
