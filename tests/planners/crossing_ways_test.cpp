@@ -13,7 +13,7 @@ using namespace sofof::planners;
 
 namespace {
 
-/// A roundabout of four arms, 95 m from the end of a lane that leads to it.
+/// A roundabout of four arms, each 110 m long.
 struct roundabout {
   test::map_file file =
       test::read_map(SOFOF_SOURCE_DIR "/config/maps/roundabout.toml");

@@ -17,8 +17,7 @@ double way_to_stop_m(double speed_mps) {
   return speed_mps * reaction_s + speed_mps * speed_mps / (2 * decel_mps2);
 }
 
-// Whether a body leaves a point behind it, by 60 degrees to either side. On a
-// winding road who does may come back, but not soon.
+// Whether a point lies behind a body, by 60 degrees to either side.
 bool leaves(const oriented_box& body, point behind) {
   constexpr auto cos_60 = 0.5;
   const point ahead{std::cos(body.heading_rad), std::sin(body.heading_rad)};
