@@ -111,9 +111,29 @@ void right_of_way::decide(std::span<road_user_state> drivers,
     return goes_before(drivers_[a], drivers_[a].rank, drivers_[b],
                        drivers_[b].rank);
   });
+  kept_a_place_.assign(on_roundabout_.size(), false);
   for (const auto who : asking_)
-    if (drivers_[who].asks_since)
+    if (drivers_[who].asks_since) {
       drivers_[who].last = ask(who);
+      keep_a_place(who);
+    }
+}
+
+/// Keeps a place on a roundabout for the first who has waited long and finds
+/// its zones taken: else others take each place that comes free before.
+void right_of_way::keep_a_place(std::uint32_t who) {
+  const auto& d = drivers_[who];
+  const auto is_taken = d.last == road_user_state::answer::held
+                        || d.last == road_user_state::answer::wait;
+  if (!is_taken || !is_impatient(d))
+    return;
+  const auto to_m = party_.front().clear_m + d.length_m();
+  const auto ring = roundabout_between(d, d.line_m, to_m);
+  if (ring == roundabouts_.count() || ring == roundabout_of(d)
+      || kept_a_place_[ring])
+    return;
+  kept_a_place_[ring] = true;
+  ++on_roundabout_[ring];
 }
 
 /// Enters a driver at all zones from its rear to as far as it sees.

@@ -10,7 +10,7 @@
 //    room, even if nobody else is ever granted anything again. So every zone
 //    comes free in the end, and waiting for one never goes in circles.
 // 3. No roundabout is more than half full, so that somebody on it always finds
-//    room to go on.
+//    room to go on. Of the places on it one is kept for who has waited longest.
 // What is left is waiting for room, which can go in circles (a block of
 // streets, each full, each leading into the next). Who has waited for long
 // therefore asks together with those that stand in its way: all of them go,
@@ -64,6 +64,7 @@ private:
   bool goes_before(const road_user_state& a, int rank_a,
                    const road_user_state& b, int rank_b) const;
   road_user_state::answer ask(std::uint32_t who);
+  void keep_a_place(std::uint32_t who);
   bool join(std::uint32_t who);
   std::size_t roundabout_between(const road_user_state& d, double from_m,
                                  double to_m) const;
@@ -86,6 +87,7 @@ private:
   roundabouts roundabouts_;
   std::vector<std::vector<user>> users_;   // of each side, near or on it
   std::vector<std::size_t> on_roundabout_; // or let on to it
+  std::vector<bool> kept_a_place_;         // on each, in this decision
   std::vector<std::uint32_t> asking_;
   std::vector<request> party_; // who asks together
   std::vector<zone> wanted_;   // all zones of the party
