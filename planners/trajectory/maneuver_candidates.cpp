@@ -153,6 +153,7 @@ minded_cars find_minded(std::span<const crossing_user> users,
       const auto cannot_stop =
           way_m < 0 ? car.speed_mps > slow_mps : hardest_stop_m(car) > way_m;
       x.cannot_stop = x.cannot_stop || (before && cannot_stop);
+      x.committed = x.committed || x.cannot_stop;
       if (!is_minded(user, line_m, car) || found.count == found.places.size())
         continue;
       found.places[found.count++] = {line_m, way(user.to_m + car.rear_m), &user,

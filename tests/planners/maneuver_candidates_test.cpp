@@ -178,6 +178,18 @@ TEST_CASE(
   CHECK_FALSE(goes({}));
 }
 
+TEST_CASE("a car on one place of another that it goes before does not wait on "
+          "it for that one's next place") {
+  const crossing_car fast{4, 1, 6, 6, 1.5};
+  // Its front is 1 m into the first, and comes too late to the second.
+  const std::vector both{user(3, 12, 4, 5, true, 1),
+                         user(16, 22, 3.5, 5, true, 1)};
+  CHECK(lists(orders(both, {.before = {1}}, 16, fast), 1));
+  CHECK_FALSE(lists(orders(both, {}, 16, fast), 1));
+  const crossing_car slow{4, 1, 1.9, 6, 1.5}; // it can stay where it is
+  CHECK_FALSE(lists(orders(both, {.before = {1}}, 16, slow), 1));
+}
+
 TEST_CASE(
     "a car that would have to brake hard goes on before those who can stay "
     "off by braking little at all places, and before nobody else") {
