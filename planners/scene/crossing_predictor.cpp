@@ -39,12 +39,15 @@ constexpr auto turning_rad = 0.5;
 constexpr auto close_s = 1.5, slows_down_mps2 = 1.0;
 /// Who is slower than this may as well be moving up to its line, m/s.
 constexpr auto creeps_mps = 1.0;
+/// Who gathers speed so has set off itself, m/s².
+constexpr auto sets_off_mps2 = 0.3;
 
 /// Who comes later than this to a zone that a car is on already can brake, s.
 constexpr auto soon_s = 2.0;
 
-/// Who is slower among crossings may come to rest there, m/s.
-constexpr auto hesitant_mps = 3.0;
+/// Who is slower among crossings, or soon there, may come to rest there, m/s,
+/// s.
+constexpr auto hesitant_mps = 3.0, hesitates_s = 5.0;
 
 /// What a car brakes with at most when it has begun in time, m/s².
 constexpr auto easy_decel_mps2 = 2.0;
@@ -89,7 +92,7 @@ void crossing_predictor::look_ahead(double rear_m, double front_m, double to_m,
                                     std::vector<way_stretch>& keep_free) {
   assert(rear_m < front_m && front_m < to_m);
   find_zones(rear_m, to_m);
-  join_zones(front_m - rear_m, keep_free);
+  join_zones(rear_m, front_m, keep_free);
 }
 
 double crossing_predictor::patience_s(const std::optional<station_id>& who,
@@ -129,7 +132,7 @@ void crossing_predictor::judge(const crossing_viewer& me,
       }
       const auto first = !gives_way(me, x, when, own);
       const auto hesitates =
-          first && forward_mps(x) < hesitant_mps && when.enter_s < soon_s;
+          first && forward_mps(x) < hesitant_mps && when.enter_s < hesitates_s;
       found.push_back(
           {hesitates ? line_before(me, own, keep_free) : own.on.from_m,
            own.on.to_m, when.enter_s,
@@ -178,14 +181,21 @@ double crossing_predictor::line_before(const crossing_viewer& me,
   return own.on.from_m;
 }
 
-/// Zones between which no car fits are one.
-void crossing_predictor::join_zones(double car_m,
+/// Zones between which no car fits are one; what begins before a front that is
+/// among them is another.
+void crossing_predictor::join_zones(double rear_m, double front_m,
                                     std::vector<way_stretch>& keep_free) const {
-  for (const auto& [own, middle] : zones_)
-    if (!keep_free.empty() && own.from_m < keep_free.back().to_m + car_m)
+  const auto car_m = front_m - rear_m;
+  assert(car_m > 0);
+  for (const auto& [own, middle] : zones_) {
+    const auto joins =
+        !keep_free.empty() && own.from_m < keep_free.back().to_m + car_m
+        && (own.from_m < front_m) == (keep_free.back().from_m < front_m);
+    if (joins)
       keep_free.back().to_m = std::max(keep_free.back().to_m, own.to_m);
     else
       keep_free.push_back({own.from_m, own.to_m});
+  }
   assert(std::ranges::is_sorted(keep_free, {}, &way_stretch::from_m));
 }
 
@@ -200,8 +210,10 @@ bool crossing_predictor::gives_way(const crossing_viewer& me, const track& x,
   if (way_m <= 0)
     return false; // it is there
   const auto brakes = x.accel_mps2 < -slows_down_mps2;
-  if (me.speed_mps < stands_below_mps && v > creeps_mps && !brakes
-      && when.enter_s < close_s)
+  if (me.speed_mps < stands_below_mps && !brakes
+      && ((v > creeps_mps && when.enter_s < close_s)
+          || (x.accel_mps2 > sets_off_mps2 && v > stands_below_mps
+              && when.enter_s < hesitates_s)))
     return false; // who stands does not set off before who comes anyway
   if (v * v > 2 * (brakes ? yielding_decel_mps2 : begins_by_mps2) * way_m) {
     // It will be there, unless it goes elsewhere, as who has to give way and

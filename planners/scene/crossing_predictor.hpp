@@ -52,7 +52,8 @@ public:
 
   /// Finds the zones of the own way that the vehicle has not left and that
   /// begin before `to_m`.
-  /// @param keep_free  Them, joined where no car fits between.
+  /// @param keep_free  Them, joined where no car fits between; apart, those
+  ///                   that its front has not reached yet.
   void look_ahead(double rear_m, double front_m, double to_m,
                   std::vector<way_stretch>& keep_free);
 
@@ -101,7 +102,8 @@ private:
   void foresee(std::span<const other_body> others);
   static double line_before(const crossing_viewer& me, const own_zone& own,
                             std::span<const way_stretch> keep_free);
-  void join_zones(double car_m, std::vector<way_stretch>& keep_free) const;
+  void join_zones(double rear_m, double front_m,
+                  std::vector<way_stretch>& keep_free) const;
   bool gives_way(const crossing_viewer& me, const track& x,
                  const conflict_visit& when, const own_zone& own) const;
   bool would_turn_across(const conflict_visit& when, const own_zone& own) const;

@@ -82,8 +82,9 @@ struct driving_scene {
   /// Where crossings begin at which others would go first, whether anybody is
   /// seen or not: arc length on the own route, rising.
   std::vector<double> yields_m;
-  /// Where others cross: no place to come to rest. Rising, apart by more than a
-  /// car's length.
+  /// Where others cross: no place to come to rest. Rising, and apart by more
+  /// than a car's length, but for where the own front is: one stretch that it
+  /// has begun, and what follows it.
   std::vector<way_stretch> keep_free;
 };
 

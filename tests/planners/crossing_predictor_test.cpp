@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 using namespace sofof;
@@ -263,6 +264,52 @@ TEST_CASE("a car does not come to rest where others cross") {
         < o.way->path().project(from_south_meets_from_west).s_m - 3);
   CHECK(o.seen.keep_free[0].to_m
         > o.way->path().project(from_south_meets_from_west).s_m + 3);
+}
+
+TEST_CASE("a car whose front is among crossings does not come to rest on the "
+          "next ones") {
+  auto o = at_cross_roads({3, 0, 1}, 100);
+  o.look({});
+  REQUIRE(o.seen.keep_free.size() == 1);
+  const auto all = o.seen.keep_free[0];
+  const auto front_m = all.from_m + 0.1;
+  o.me.s_m = front_m - scene_params{}.car.front_m;
+  o.look({});
+  REQUIRE(o.seen.keep_free.size() == 2);
+  CHECK(o.seen.keep_free[0].from_m == doctest::Approx(all.from_m));
+  CHECK(o.seen.keep_free[1].from_m > front_m);
+  CHECK(o.seen.keep_free[1].to_m == doctest::Approx(all.to_m));
+}
+
+TEST_CASE("who stands does not set off before who has just set off") {
+  auto o = at_cross_roads({3, 0, 1}, 129, true);
+  o.me.speed_mps = 0;
+  auto x = seen_track({-1.75, 11}, -pi / 2, 0.6); // from the left
+  const auto other_first = [&] {
+    o.look({x});
+    REQUIRE_FALSE(o.seen.crossings.empty());
+    return std::ranges::any_of(o.seen.crossings, &crossing_user::goes_first);
+  };
+  CHECK_FALSE(other_first());
+  x.accel_mps2 = 1;
+  CHECK(other_first());
+  o.me.speed_mps = 2; // it has set off, too
+  CHECK_FALSE(other_first());
+}
+
+TEST_CASE("a car waits before all crossings for who is slow and goes first") {
+  auto o = at_cross_roads({4, 0, 2}, 120);
+  o.me.speed_mps = 3;
+  const auto first_line_m = [&](double speed_mps) {
+    o.look({seen_track({-12, -1.75}, 0, speed_mps)});
+    auto from_m = std::numeric_limits<double>::infinity();
+    for (const auto& c : o.seen.crossings)
+      if (c.goes_first)
+        from_m = std::min(from_m, c.from_m);
+    return from_m;
+  };
+  REQUIRE(std::isfinite(first_line_m(2)));
+  CHECK(first_line_m(2) == o.seen.keep_free[0].from_m);
 }
 
 TEST_CASE("who comes towards one may turn across, but gives way then") {
