@@ -26,7 +26,7 @@ constexpr auto hysteresis_m = 0.1;
 /// much is left on both sides together.
 constexpr auto least_room_to_pass_m = 0.3;
 constexpr auto decides_within_s = 0.7; // with what it keeps before the body
-constexpr auto stops_mps2 = 2.5;
+constexpr auto stops_mps2 = 2.0;
 /// Longer than any conflict of two ways and the car, and what bodies move until
 /// their sightings are used.
 constexpr auto ample_m = 60.0;
