@@ -1,10 +1,13 @@
-// Drives vehicles whose provider lies, for tests/acceptance/trust.
+// Drives vehicles whose provider lies, for tests/acceptance/trust and traffic.
 //
 //   lies drive LIE SEED yes|no SECONDS   in virtual time, with or without
 //                                        other traffic; prints a line of
 //                                        figures: NAME=VALUE ...
 //   lies provide LIE SCENARIO HOST:PORT KEYS SECONDS OUT
 //                                        as `sofof provide`, over TLS
+//   lies conduct LIE SCENARIO AFTER_MS   runs it, in virtual time, with servers
+//                                        that lie about crossings, some time
+//                                        after each vehicle's first advice
 //   lies time SCENARIO SECONDS           judges honest plans, in virtual time;
 //                                        prints what a plan takes, µs
 #include "actors/services/planning/plan_request.hpp"
@@ -39,6 +42,7 @@ using namespace sofof::world;
 namespace {
 
 constexpr auto planning = "trajectory_planning";
+constexpr auto conducting = "crossing_management";
 
 /// Three connected cars in a row on the round trip through Ulm-Lehr, a pair
 /// that comes towards them, and, if wanted, twelve more that do not talk.
@@ -274,6 +278,19 @@ int provide_lies(lie what, const char* file, const char* listen,
   return static_cast<int>(provide(s, options, run, interrupted, std::cout));
 }
 
+int conduct(lie what, const char* file, const char* after_ms) {
+  auto s = load_scenario(file, {});
+  for (auto& kind : s.services)
+    if (kind->name() == conducting)
+      kind = lying_service(kind, what,
+                           std::chrono::milliseconds{std::atoi(after_ms)});
+  const auto x = play(s);
+  fmt::print("collisions={} refused={}\n", x.collisions.size(),
+             std::ranges::count(x.events, event_type::implausible,
+                                &event_record::what));
+  return 0;
+}
+
 /// What judging takes, µs: of each plan, and of each own plan to compare with.
 struct judging_times {
   std::vector<double> judge_us, own_us;
@@ -421,6 +438,8 @@ int main(int count, char** words) {
     if (what && mode == "provide" && count == 8)
       return provide_lies(*what, words[3], words[4], words[5], words[6],
                           words[7]);
+    if (what && mode == "conduct" && count == 5)
+      return conduct(*what, words[3], words[4]);
     if (mode == "time" && count == 4)
       return time_judging(words[2], words[3]);
   } catch (const std::exception& e) {
@@ -429,6 +448,7 @@ int main(int count, char** words) {
   }
   std::cerr << "usage: lies drive LIE SEED yes|no SECONDS\n"
                "       lies provide LIE SCENARIO HOST:PORT KEYS SECONDS OUT\n"
+               "       lies conduct LIE SCENARIO AFTER_MS\n"
                "       lies time SCENARIO SECONDS\n";
   return 2;
 }

@@ -38,11 +38,12 @@ enum class lie {
   swaps,      ///< It is another vehicle's.
   oscillates, ///< It speeds up and brakes in turns.
   replays,    ///< It is an earlier one, with new times.
+  through,    ///< It goes on at 8 m/s, whoever else comes.
 };
 
-inline constexpr std::array<std::string_view, 13> lie_names{
+inline constexpr std::array<std::string_view, 14> lie_names{
     "jump",  "g100",   "stale",  "ram",   "mix",        "offroad", "oncoming",
-    "brake", "stands", "drifts", "swaps", "oscillates", "replays"};
+    "brake", "stands", "drifts", "swaps", "oscillates", "replays", "through"};
 
 inline std::optional<lie> lie_of(std::string_view name) {
   const auto found = std::ranges::find(lie_names, name);
@@ -216,6 +217,13 @@ private:
         plan.start = honest.start;
         return plan;
       }
+      case lie::through: {
+        constexpr double brisk_mps2 = 1.2, top_mps = 8;
+        const auto until_s = (top_mps - from.speed_mps) / brisk_mps2;
+        return made(
+            from, now, [=](double t) { return t < until_s ? brisk_mps2 : 0.0; },
+            straight);
+      }
     }
     return honest;
   }
@@ -297,9 +305,10 @@ private:
 
 /// @returns the service as it is in vehicles, with providers that lie.
 inline actors::service_type_ptr lying_service(actors::service_type_ptr honest,
-                                              lie what) {
+                                              lie what, duration after = 8s) {
   const auto all = std::make_shared<liars>();
   all->what = what;
+  all->after = after;
   return std::make_shared<changed_service>(
       std::move(honest),
       [all](offloading::service& service, const actors::service_world& world) {
