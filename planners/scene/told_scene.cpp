@@ -23,8 +23,9 @@ constexpr double as_told_m = 4, as_told_along_m = 4;
 constexpr double lead_moves_mps = 1;
 /// Who is slower than it says by more brakes for something.
 constexpr double lead_slower_mps = 1;
-/// Who is behind its claim by more does not keep it: a way, and a time.
-constexpr double late_m = 3, late_s = 0.5;
+/// Who is behind its claim by more does not keep it: a way, and a time, well
+/// below that between two claims (claim_book::rules).
+constexpr double late_m = 1.5, late_s = 0.3;
 /// Drives are looked for on the own way so far from the car.
 constexpr double own_way_m = 200;
 /// A lead is on the own way if it is not farther from it than a car by this.

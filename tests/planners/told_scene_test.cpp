@@ -1,6 +1,7 @@
 // Who of those that a car sees keeps what it has claimed.
 #include "planners/scene/told_scene.hpp"
 
+#include "planners/crossing/claim_book.hpp"
 #include "tests/support/toy_streets.hpp"
 
 #include <doctest/doctest.h>
@@ -64,16 +65,18 @@ std::vector<way_moment> told_by_lead(double heading_rad, double beside_m,
 
 } // namespace
 
-TEST_CASE("a slow car that is three metres behind what it has claimed does not "
-          "keep it") {
-  CHECK(is_kept(2, 2.8));
-  CHECK_FALSE(is_kept(2, 3.2));
+TEST_CASE("a slow car that is over 1.5 m behind what it has claimed does "
+          "not keep it") {
+  CHECK(is_kept(2, 1.4));
+  CHECK_FALSE(is_kept(2, 1.6));
 }
 
-TEST_CASE("a fast car keeps what it has claimed as long as it is not half a "
-          "second late") {
-  CHECK(is_kept(10, 4.8));
-  CHECK_FALSE(is_kept(10, 5.2));
+TEST_CASE("whose claim is kept is less late than claims are apart") {
+  const auto apart_s = to_seconds(claim_book::rules{}.apart);
+  for (const auto speed_mps : {5.0, 8.0, 12.0}) {
+    CHECK(is_kept(speed_mps, 0.25 * speed_mps));
+    CHECK_FALSE(is_kept(speed_mps, (apart_s - 0.15) * speed_mps));
+  }
 }
 
 TEST_CASE("a lead that turns is as fast along the own way as it says") {
