@@ -39,14 +39,15 @@ constexpr auto turning_rad = 0.5;
 constexpr auto close_s = 1.5, slows_down_mps2 = 1.0;
 /// Who is slower than this may as well be moving up to its line, m/s.
 constexpr auto creeps_mps = 1.0;
-/// Who gathers speed so has set off itself, m/s².
-constexpr auto sets_off_mps2 = 0.3;
+/// A car that accelerates by more than this, m/s², and comes within so many
+/// seconds, has set off.
+constexpr auto sets_off_mps2 = 0.3, comes_soon_s = 5.0;
 
 /// Who comes later than this to a zone that a car is on already can brake, s.
 constexpr auto soon_s = 2.0;
 
-/// Who is slower among crossings, or soon there, may come to rest there, m/s,
-/// s.
+/// A car slower than this, m/s, that comes within so many seconds may come to
+/// rest among crossings.
 constexpr auto hesitant_mps = 3.0, hesitates_s = 5.0;
 
 /// What a car brakes with at most when it has begun in time, m/s².
@@ -212,8 +213,8 @@ bool crossing_predictor::gives_way(const crossing_viewer& me, const track& x,
   const auto brakes = x.accel_mps2 < -slows_down_mps2;
   if (me.speed_mps < stands_below_mps && !brakes
       && ((v > creeps_mps && when.enter_s < close_s)
-          || (x.accel_mps2 > sets_off_mps2 && v > stands_below_mps
-              && when.enter_s < hesitates_s)))
+          || (when.rank <= own.on.rank && x.accel_mps2 > sets_off_mps2
+              && v > stands_below_mps && when.enter_s < comes_soon_s)))
     return false; // who stands does not set off before who comes anyway
   if (v * v > 2 * (brakes ? yielding_decel_mps2 : begins_by_mps2) * way_m) {
     // It will be there, unless it goes elsewhere, as who has to give way and

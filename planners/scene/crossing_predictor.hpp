@@ -52,8 +52,9 @@ public:
 
   /// Finds the zones of the own way that the vehicle has not left and that
   /// begin before `to_m`.
-  /// @param keep_free  Them, joined where no car fits between; apart, those
-  ///                   that its front has not reached yet.
+  /// @param keep_free  Them, joined where no car fits between; those that begin
+  ///                   before the front and those behind it stay apart, and
+  ///                   may overlap.
   void look_ahead(double rear_m, double front_m, double to_m,
                   std::vector<way_stretch>& keep_free);
 
@@ -67,7 +68,9 @@ public:
   /// it has not stood there for too long: each vehicle waits for another time,
   /// so that not all set off at once, and for longer if the other has the
   /// better rank; who has stood for long itself waits for nobody who stands.
-  /// Who stands on a zone is not crossing: it is in the way, or it is not.
+  /// Who stands on a zone is not crossing: it is in the way, or it is not. A
+  /// car that stands itself also lets go who comes anyway, or of no worse rank
+  /// has just set off.
   ///
   /// Who goes first leaves later than it would at its speed, if it has to wait
   /// for a third one by rank.

@@ -128,19 +128,28 @@ void list_lead(time_point now, const world::route& way,
   if (says_mps > lead->speed_mps + lead_slower_mps)
     return;
   assert(std::isfinite(off_m));
+  const auto is_beside = [&](const world::path_offset& on) {
+    return std::abs(on.d_m) > half_m + lead_beside_m;
+  };
+  auto turned_off = false;
   for (auto t = now; t <= it->drive.to(); t += told_every) {
     const auto on = line.project(rear_of(it->drive.at(t)), guess_m);
-    if (std::abs(on.d_m) > half_m + lead_beside_m) { // it turns off
-      if (out.empty())
-        out.push_back({lead->rear_s_m, 0});
-      break;
+    guess_m = on.s_m;
+    if (is_beside(on)) {
+      if (!out.empty())
+        return;
+      turned_off = true; // unless it only turns in
+      continue;
     }
+    if (turned_off)
+      return;
     if (out.empty() || on.s_m + off_m > out.back().s_m + moves_m)
       out.push_back({on.s_m + off_m, to_seconds(t - now)});
     else
       out.back().t_s = to_seconds(t - now); // it is there still
-    guess_m = on.s_m;
   }
+  if (turned_off)
+    out.push_back({lead->rear_s_m, 0});
 }
 
 } // namespace sofof::planners

@@ -12,8 +12,8 @@ namespace sofof::planners {
 
 /// Finds the bodies of those who tell how they drive, as sensors know no names:
 /// nearest to where they said to be, within 4 m. Marks those who take part:
-/// they have claimed a drive, and are not behind it by more than 3 m and half a
-/// second, or they have not and the own car has agreed with them.
+/// they have claimed a drive, and are not behind it by more than 1.5 m and by
+/// more than 0.3 s, or they have not and the own car has agreed with them.
 void find_those_who_tell(time_point now, std::span<const told_drive> told,
                          bool has_agreed, std::span<other_body> others);
 

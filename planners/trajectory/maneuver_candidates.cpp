@@ -50,7 +50,8 @@ void put_first(auto& orders, std::uint32_t choice) {
 struct minded_place {
   double line_m, clear_m; // way to before and behind it
   const crossing_user* user;
-  std::size_t car; // its bit
+  std::size_t car;          // its bit
+  bool follows_own = false; // the car would stand on one of the same before it
 };
 
 /// Those who are minded, in the order in which they come.
@@ -61,6 +62,7 @@ struct minded_cars {
     double gap_s;     // to leave it when the own car goes before it, ...
     bool committed;   // ... and cannot wait for it any more, ...
     bool cannot_stop; // ... or not even by braking as hard as it can
+    double on_to_m;   // where the place ends that the own front is on
   };
   std::array<minded_place, crossing_order::most_windows> places;
   std::size_t count = 0;
@@ -95,10 +97,13 @@ void find_cars(std::span<const crossing_user> users, const crossing_car& car,
     if (known != all.begin() + count)
       known->enter_s = std::min(known->enter_s, user.enter_s);
     else if (count < all.size())
-      all[count++] = {user.body, user.enter_s,
+      all[count++] = {user.body,
+                      user.enter_s,
                       car.is_impatient && may_be_asked(user) ? gap_asked_s
                                                              : gap_to_begin_s,
-                      false, false};
+                      false,
+                      false,
+                      -speed_constraints::never};
   }
   std::ranges::sort(all.begin(), all.begin() + count, {}, [](const auto& x) {
     return std::pair{x.enter_s, x.body};
@@ -153,11 +158,14 @@ minded_cars find_minded(std::span<const crossing_user> users,
       const auto cannot_stop =
           way_m < 0 ? car.speed_mps > slow_mps : hardest_stop_m(car) > way_m;
       x.cannot_stop = x.cannot_stop || (before && cannot_stop);
-      x.committed = x.committed || x.cannot_stop;
+      if (way_m < 0 && before && cannot_stop)
+        x.on_to_m = std::max(x.on_to_m, user.to_m);
       if (!is_minded(user, line_m, car) || found.count == found.places.size())
         continue;
+      const auto no_car_between =
+          user.from_m - car.front_m - car.rear_m < x.on_to_m;
       found.places[found.count++] = {line_m, way(user.to_m + car.rear_m), &user,
-                                     i};
+                                     i, no_car_between};
       x.committed = x.committed || (before && stopping_m(car) > way_m);
       if (before)
         x.gap_s = x.committed          ? gap_at_last_s
@@ -175,9 +183,9 @@ bool add_windows(const minded_cars& minded, const crossing_car& car,
   auto possible = true;
   assert(order.count == 0 && order.choice < crossing_order::waits);
   for (std::size_t i = 0; i < minded.count; ++i) {
-    const auto& [line_m, clear_m, user, bit] = minded.places[i];
+    const auto& [line_m, clear_m, user, bit, follows_own] = minded.places[i];
     const auto before = (order.choice >> bit & 1U) != 0;
-    if (before && minded.cars[bit].committed
+    if (before && (minded.cars[bit].committed || follows_own)
         && (user->brakes_mps2 < braking_for_begun_mps2
             || minded.cars[bit].cannot_stop))
       continue; // it lets the car pass, or has to

@@ -23,7 +23,7 @@ public:
   void keep_to(const agreed_drive& agreed, double age_s,
                const way_from_car& way, speed_constraints& task);
 
-  /// Keeps the car 1.0 s and 2.5 m behind the rear of who leads, at the times
+  /// Keeps the car 0.6 s and 2.5 m behind the rear of who leads, at the times
   /// that this one tells, instead of behind a car at constant speed.
   /// @param told     Rising; empty: nothing is changed.
   /// @param age_s    Since its times begin.

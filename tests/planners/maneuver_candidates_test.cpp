@@ -188,6 +188,9 @@ TEST_CASE("a car on one place of another that it goes before does not wait on "
   CHECK_FALSE(lists(orders(both, {}, 16, fast), 1));
   const crossing_car slow{4, 1, 1.9, 6, 1.5}; // it can stay where it is
   CHECK_FALSE(lists(orders(both, {.before = {1}}, 16, slow), 1));
+  // Between these it can wait.
+  const std::vector apart{both[0], user(40, 46, 3.5, 5, true, 1)};
+  CHECK_FALSE(lists(orders(apart, {.before = {1}}, 16, fast), 1));
 }
 
 TEST_CASE(

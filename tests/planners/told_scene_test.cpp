@@ -85,6 +85,11 @@ TEST_CASE("a lead that turns is as fast along the own way as it says") {
   CHECK(told_by_lead(turned_rad, 0, 3).empty()); // it brakes
 }
 
+TEST_CASE("a lead that turns in from beside the way is minded as it is seen") {
+  CHECK(told_by_lead(0.6, -4, 5).empty());
+  CHECK(told_by_lead(-0.6, 4, 5).empty());
+}
+
 TEST_CASE("a lead that turns off holds nobody up where it is") {
   const auto told = told_by_lead(-1, -4, 4);
   REQUIRE(told.size() == 1);

@@ -2,6 +2,7 @@
 #include "world/traffic/right_of_way.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -127,6 +128,7 @@ void right_of_way::keep_a_place(std::uint32_t who) {
                         || d.last == road_user_state::answer::wait;
   if (!is_taken || !is_impatient(d))
     return;
+  assert(party_.front().who == who); // of its request, just now
   const auto to_m = party_.front().clear_m + d.length_m();
   const auto ring = roundabout_between(d, d.line_m, to_m);
   if (ring == roundabouts_.count() || ring == roundabout_of(d)

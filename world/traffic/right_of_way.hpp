@@ -10,7 +10,8 @@
 //    room, even if nobody else is ever granted anything again. So every zone
 //    comes free in the end, and waiting for one never goes in circles.
 // 3. No roundabout is more than half full, so that somebody on it always finds
-//    room to go on. Of the places on it one is kept for who has waited longest.
+//    room to go on. One place is kept for who has asked for longest, for
+//    more than 20 s, and finds its zones taken.
 // What is left is waiting for room, which can go in circles (a block of
 // streets, each full, each leading into the next). Who has waited for long
 // therefore asks together with those that stand in its way: all of them go,
