@@ -41,7 +41,7 @@ constexpr auto close_s = 1.5, slows_down_mps2 = 1.0;
 constexpr auto creeps_mps = 1.0;
 /// A car that accelerates by more than this, m/s², and comes within so many
 /// seconds, has set off.
-constexpr auto sets_off_mps2 = 0.3, comes_soon_s = 5.0;
+constexpr auto pulls_away_mps2 = 0.3, comes_soon_s = 5.0;
 
 /// Who comes later than this to a zone that a car is on already can brake, s.
 constexpr auto soon_s = 2.0;
@@ -213,7 +213,7 @@ bool crossing_predictor::gives_way(const crossing_viewer& me, const track& x,
   const auto brakes = x.accel_mps2 < -slows_down_mps2;
   if (me.speed_mps < stands_below_mps && !brakes
       && ((v > creeps_mps && when.enter_s < close_s)
-          || (when.rank <= own.on.rank && x.accel_mps2 > sets_off_mps2
+          || (when.rank <= own.on.rank && x.accel_mps2 > pulls_away_mps2
               && v > stands_below_mps && when.enter_s < comes_soon_s)))
     return false; // who stands does not set off before who comes anyway
   if (v * v > 2 * (brakes ? yielding_decel_mps2 : begins_by_mps2) * way_m) {
