@@ -1,4 +1,4 @@
-// Trajectory planning at a provider that lies: what vehicles must survive.
+// A provider that lies about plans or crossings: what vehicles must survive.
 #pragma once
 
 #include "messages/v2x/encoded.hpp"
@@ -38,7 +38,7 @@ enum class lie {
   swaps,      ///< It is another vehicle's.
   oscillates, ///< It speeds up and brakes in turns.
   replays,    ///< It is an earlier one, with new times.
-  through,    ///< It goes on at 8 m/s, whoever else comes.
+  through,    ///< It goes on at 8 m/s or more, whoever comes.
 };
 
 inline constexpr std::array<std::string_view, 14> lie_names{
