@@ -29,6 +29,13 @@ inline constexpr duration cam_timeout = 2s;
 inline constexpr duration ego_period = 100ms;
 /// Between two answers to results of unknown sessions.
 inline constexpr duration unknown_result_period = 200ms;
+/// Between two digests of what runs for a station; the last one comes so long
+/// after nothing does any more.
+inline constexpr duration digest_period = 500ms;
+inline constexpr duration digest_goes_on = digest_period * 4;
+/// A session is over of which neither a result nor a digest has come for
+/// longer: four of these were lost, or there are none.
+inline constexpr duration confirmation_timeout = digest_period * 9 / 2;
 
 /// Between two pings on a connection between hosts.
 inline constexpr duration ping_period = 50ms;

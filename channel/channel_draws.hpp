@@ -24,6 +24,7 @@ enum class direction { up, down };
 enum class message_class {
   result, ///< Numbered by planning cycle; all of one cycle share a draw.
   other,  ///< Numbered as they are sent.
+  digest, ///< Likewise; in no order with others, so that it delays none.
 };
 
 /// One message as the channel sees it.

@@ -27,15 +27,17 @@ passage link_direction::carry(time_point sent, message_class kind,
   const auto leaves = stall ? std::max(on_air, stall->end) : on_air;
   const auto delay = stall ? draws_.burst_delay(direction_, stall->number)
                            : draws_.network_delay(m, sent);
-  last_arrival_ = std::max(last_arrival_, leaves + delay); // none overtakes
+  auto arrives = leaves + delay;
+  if (kind != message_class::digest) // none overtakes another one
+    arrives = last_arrival_ = std::max(last_arrival_, arrives);
   const auto is_held = stall && stall->end > on_air;
   // Behind a slow one it is as late as that, since none overtakes.
-  const auto is_slow = last_arrival_ - leaves >= slow_delay;
-  const passage through{last_arrival_,
+  const auto is_slow = arrives - leaves >= slow_delay;
+  const passage through{arrives,
                         is_held   ? disturbance::stall
                         : is_slow ? disturbance::slow
                                   : disturbance::none,
-                        last_arrival_ - sent - airtime - delay};
+                        arrives - sent - airtime - delay};
   assert(through.wait >= duration{0});
   return through;
 }

@@ -53,7 +53,8 @@ public:
   /// @param number  Number of the draw: the cycle of a result, a running
   ///                number for everything else (streams of their own).
   /// @param octets  What the message takes on the air.
-  /// @returns among others when it arrives, never before an earlier message.
+  /// @returns among others when it arrives: never before an earlier message,
+  /// but for digests, which neither wait nor are waited for.
   passage carry(time_point sent, message_class kind, std::uint64_t number,
                 std::size_t octets = usual_octets);
 

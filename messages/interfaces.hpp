@@ -96,6 +96,8 @@ using requester_actor = result_actor::extend<
     // Each requested service is accepted or refused; one manager per accepted
     // service, in the order of the verdicts.
     reacts_to<service_response, std::vector<provider_manager_actor>>,
+    // What the provider believes to run for it.
+    reacts_to<session_digest>,
     // The provider has ended a session.
     reacts_to<service_end>>;
 
@@ -136,7 +138,8 @@ using link_actor = requester_actor::extend<
 using vehicle_endpoint_actor = caf::typed_actor<
     // As requester_actor takes them; offers, with the station they are for.
     reacts_to<station_id::rep, service_offer>, reacts_to<service_response>,
-    reacts_to<service_result>, reacts_to<service_end>,
+    reacts_to<session_digest>, reacts_to<service_result>,
+    reacts_to<service_end>,
     // The connection lives; whose clock says what.
     reacts_to<ping>, reacts_to<pong>,
     // The latest message of this stream has come: the next one may follow.

@@ -100,6 +100,28 @@ void provider::expire(const station_check& x, time_point now) {
     wake_at(deadline, x);
 }
 
+void provider::expire(const digest_due& x, time_point now) {
+  const auto i = stations_.find(x.station);
+  if (i == stations_.end() || i->second.number != x.record)
+    return;
+  auto& station = i->second;
+  assert(station.is_told && station.requester);
+  messages::session_digest digest{setup_.id, x.station, last_session_, {}};
+  for (const auto& session : station.sessions)
+    digest.running.push_back(session.session);
+  port_.send(*station.requester, digest);
+  station.is_told = !station.sessions.empty() || now < station.told_until;
+  if (station.is_told)
+    wake_at(now + protocol::digest_period, x);
+}
+
+void provider::begin_digests(station_record& station, time_point now) {
+  assert(!station.sessions.empty());
+  if (!std::exchange(station.is_told, true))
+    wake_at(now + protocol::digest_period,
+            digest_due{station.latest.station, station.number});
+}
+
 void provider::expire(const epoch_end&, time_point now) {
   assert(in_epoch_);
   in_epoch_ = false;
@@ -224,6 +246,7 @@ void provider::offer(station_record& station, time_point now) {
 void provider::forget(stations::iterator i, const ending& why, time_point now) {
   assert(why.reason != messages::end_reason::cam_timeout
          || now - i->second.heard > protocol::cam_timeout);
+  drop_waiting(i->first);
   leave(i->second, why, now);
   stations_.erase(i);
 }
@@ -307,6 +330,7 @@ void provider::end(station_record& station, messages::session_id session,
       messages::name_of(reason), session.station});
   station.sessions.erase(i);
   assert(!station.find(session.service));
+  station.told_until = now + protocol::digest_goes_on;
   station.next_offer = now + protocol::offer_period;
 }
 

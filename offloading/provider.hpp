@@ -65,6 +65,8 @@ public:
 
   virtual void send(peer_id requester,
                     const messages::service_offer& offer) = 0;
+  virtual void send(peer_id requester,
+                    const messages::session_digest& digest) = 0;
   /// The sessions of its accepted verdicts have been started before.
   virtual void send(peer_id requester,
                     const messages::service_response& response) = 0;
@@ -106,6 +108,9 @@ public:
 ///   that ends.
 /// * Each session is closed once; the requester is told, unless it was the one
 ///   to say so.
+/// * A station is told every protocol::digest_period what runs for it, and
+///   still is for protocol::digest_goes_on after nothing does: an end that was
+///   lost is found by either side.
 ///
 /// Source: Dehler & Buchholz 2025, service provider.
 /// No clock and no I/O: every call says what time it is, never less than
@@ -153,9 +158,14 @@ private:
     station_id station = 0;
     std::uint64_t record = 0;
   };
+  /// The station whose record has this number is to be told what runs for it.
+  struct digest_due {
+    station_id station = 0;
+    std::uint64_t record = 0;
+  };
   /// An epoch of the policy is over.
   struct epoch_end {};
-  using timer = std::variant<station_check, epoch_end>;
+  using timer = std::variant<station_check, digest_due, epoch_end>;
 
   struct provider_session {
     messages::session_id session;
@@ -176,6 +186,8 @@ private:
     time_point next_offer;
     std::uint32_t last_request = 0;
     std::vector<provider_session> sessions;
+    bool is_told = false;    // digests are under way
+    time_point told_until{}; // at least
 
     const provider_session* find(const messages::service_name& service) const;
     /// Whether it has a requester, and no service runs for it twice; between
@@ -203,6 +215,7 @@ private:
   bool is_consistent() const;
   void wake_at(time_point t, timer what);
   void expire(const station_check& x, time_point now);
+  void expire(const digest_due& x, time_point now);
   void expire(const epoch_end&, time_point now);
 
   void meet(station_id id, station_record& station, peer_id requester,
@@ -210,6 +223,7 @@ private:
   void leave(station_record& station, const ending& why, time_point now);
   void locate(station_record& station, time_point now);
   void offer(station_record& station, time_point now);
+  void begin_digests(station_record& station, time_point now);
   void forget(stations::iterator i, const ending& why, time_point now);
   void drop_waiting(station_id station);
 

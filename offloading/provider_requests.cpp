@@ -45,11 +45,14 @@ void provider::drop_waiting(station_id station) {
 
 void provider::refuse(const messages::service_request& request, peer_id from,
                       std::string_view why) {
+  // In the name that it was asked by, which it may have had before it was
+  // started again.
   messages::service_response response{
-      setup_.id, request.station, request.number, {}};
+      request.provider, request.station, request.number, {}};
   for (const auto& name : request.services)
-    response.verdicts.push_back(
-        {{setup_.id, request.station, name, 0}, false, std::string{why}});
+    response.verdicts.push_back({{request.provider, request.station, name, 0},
+                                 false,
+                                 std::string{why}});
   port_.send(from, response);
 }
 
@@ -215,6 +218,7 @@ void provider::start(station_record& station,
   station.sessions.push_back({session, now, task, terms.worker,
                               open.what.candidates,
                               station.is_inside || asked_inside});
+  begin_digests(station, now);
   port_.start({.session = session,
                .requester = open.from,
                .phase = task.offset,

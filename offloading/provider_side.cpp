@@ -154,6 +154,10 @@ private:
     port_.send(requester, offer);
   }
   void send(peer_id requester,
+            const messages::session_digest& digest) override {
+    port_.send(requester, digest);
+  }
+  void send(peer_id requester,
             const messages::service_response& response) override {
     port_.send(requester, response);
   }

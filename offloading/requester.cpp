@@ -98,6 +98,23 @@ void requester::expire(const start_timeout& x, time_point now) {
   assert(is_consistent());
 }
 
+// One timer for each session is under way; it moves on with what comes.
+void requester::expire(const confirmation_check& x, time_point now) {
+  const auto found = find(x.session);
+  if (!found)
+    return;
+  const auto confirmed = found.session->confirmed;
+  assert(confirmed <= now);
+  if (now >= confirmed + protocol::confirmation_timeout)
+    end(*found.service, x.session.provider,
+        {messages::end_reason::no_data,
+         in_words("no_word", now - confirmed, protocol::confirmation_timeout)},
+        true, now);
+  else
+    wake_at(confirmed + protocol::confirmation_timeout, x);
+  assert(is_consistent());
+}
+
 // The policy learns of cycles on board once an epoch.
 void requester::expire(const epoch_end&, time_point now) {
   assert(epoch_ > duration{0});

@@ -79,11 +79,14 @@ public:
 /// * Each session is closed once; its provider is told, unless it was the one
 ///   to say so or is lost.
 /// * A provider with an implausible result is not asked for a while, for no
-///   service (distrust.hpp). One whose session gave results and then ended by
-///   a fault (not messages::is_planned) is not asked for that service for
+///   service (distrust.hpp). One whose session ended by a fault (not
+///   messages::is_planned) is not asked for that service for
 ///   protocol::cool_down, nor are those that ran it beside that one.
 /// * Results of a session that is not known are dropped; its provider is told
 ///   so every protocol::unknown_result_period at most.
+/// * A provider's digests name what runs there: a session that they do not name
+///   ends here, one that is not known is ended there once more. One of which
+///   nothing comes for protocol::confirmation_timeout ends, too.
 ///
 /// Source: Dehler & Buchholz 2025, service requester.
 /// No clock and no I/O: every call says what time it is, never less than
@@ -106,6 +109,12 @@ public:
 
   /// Verdicts up to the first that cannot be meant for this vehicle count.
   void on_response(const messages::service_response& response, time_point now);
+
+  /// A provider tells what it believes to run for this vehicle. What it ended
+  /// ends here too, and what runs there for nothing is ended again.
+  /// @param from  Whoever has sent it; see `on_offer`.
+  void on_digest(const messages::session_digest& digest, peer_id from,
+                 time_point now);
 
   /// A result has come over the air, of whatever session.
   void on_result(const messages::service_result& result, time_point now);
@@ -138,9 +147,14 @@ private:
   struct start_timeout {
     messages::session_id session;
   };
+  /// Does its provider still say that it runs it?
+  struct confirmation_check {
+    messages::session_id session;
+  };
   /// An epoch of the policy is over.
   struct epoch_end {};
-  using timer = std::variant<request_timeout, start_timeout, epoch_end>;
+  using timer = std::variant<request_timeout, start_timeout, confirmation_check,
+                             epoch_end>;
 
   /// A session that has been accepted, and its service.
   struct found_session {
@@ -183,6 +197,7 @@ private:
 
   void expire(const request_timeout& x, time_point now);
   void expire(const start_timeout& x, time_point now);
+  void expire(const confirmation_check& x, time_point now);
   void expire(const epoch_end&, time_point now);
 
   void refuse_requested(provider_id provider, std::string_view why,
@@ -193,6 +208,7 @@ private:
               std::string_view why, std::optional<provider_id> instead,
               time_point now);
   void complain(const messages::session_id& session, time_point now);
+  void end_unconfirmed(const messages::session_digest& digest, time_point now);
 
   std::vector<provider_id>
   leave(service_state& service, const ending& why, time_point now,
@@ -202,6 +218,8 @@ private:
                     std::string_view why, time_point now);
   void end(service_state& service, provider_id provider, const ending& why,
            bool tell, time_point now);
+  void observe_missed(const service_state& service, provider_id provider,
+                      time_point now);
   void learn_from(const service_state& service, const requester_session& ended,
                   messages::end_reason reason, time_point now);
   void log_end(service_state& service, const requester_session& ended,

@@ -80,10 +80,11 @@ void requester::accept(service_state& service, requester_session& session,
   assert(v.accepted && !find(v.session));
   session.at = phase::starting;
   session.session = v.session;
-  session.accepted = now;
+  session.accepted = session.confirmed = now;
   log_verdict(service, session.provider, v.session.counter, v.why, true, now);
   port_.begin(v.session);
   wake_at(now + protocol::start_timeout, start_timeout{v.session});
+  wake_at(now + protocol::confirmation_timeout, confirmation_check{v.session});
 }
 
 // @param instead  The provider that it would have asked. The vehicle decides
@@ -101,7 +102,7 @@ void requester::refuse(service_state& service, provider_id provider,
   if (!instead || *instead == provider)
     return;
   const auto other = providers_.find(*instead);
-  if (other == providers_.end() || service.find(*instead)
+  if (other == providers_.end() || service.is_moving() || service.find(*instead)
       || !service.may_ask(other->second, now))
     return;
   auto views = service.views(providers_, instead, now);
@@ -125,6 +126,7 @@ void requester::on_result(const messages::service_result& result,
   }
   assert(found.session->at != phase::requested);
   assert(found.session->accepted <= now);
+  found.session->confirmed = now;
   auto& service = *found.service;
   const auto provider = result.session.provider;
   const auto latency = now - result.created;
@@ -141,6 +143,48 @@ void requester::on_result(const messages::service_result& result,
       .missed = !in_time(result.created, now, service.needs.max_latency),
       .energy_j = service.offloaded.energy_j});
   port_.forward(result);
+}
+
+void requester::on_digest(const messages::session_digest& digest, peer_id from,
+                          time_point now) {
+  pass(now);
+  const auto i = providers_.find(digest.provider);
+  if (digest.station != setup_.station || i == providers_.end()
+      || i->second.peer != from)
+    return;
+  end_unconfirmed(digest, now);
+  // What answers an open request may not have come yet.
+  if (!i->second.open_request)
+    for (const auto& service : services_) {
+      const auto running =
+          std::ranges::find_if(digest.running, [&](const auto& x) {
+            return x.provider == digest.provider && x.station == digest.station
+                   && x.is_remote() && x.service == service.service.name;
+          });
+      if (running != digest.running.end() && !find(*running))
+        send_end({*running, messages::end_reason::no_data,
+                  messages::side::requester});
+    }
+  assert(is_consistent());
+}
+
+// Ends what the provider does not run any more: its service_end was lost.
+void requester::end_unconfirmed(const messages::session_digest& digest,
+                                time_point now) {
+  assert(digest.station == setup_.station);
+  assert(providers_.contains(digest.provider));
+  for (auto& service : services_) {
+    auto* session = service.find(digest.provider);
+    if (!session || session->at == phase::requested
+        || session->session.counter > digest.last_counter)
+      continue;
+    if (std::ranges::count(digest.running, session->session) > 0)
+      session->confirmed = now;
+    else
+      end(service, digest.provider,
+          {messages::end_reason::no_data, "its provider runs it no longer"},
+          false, now);
+  }
 }
 
 // A provider that sends results of no session has missed a service_end.
@@ -212,13 +256,7 @@ void requester::on_violation(const messages::qos_violation& violation,
     log(messages::event_type::violation, session, violation.why, now);
   auto& service = *found.service;
   if (violation.breach != messages::qos_breach::latency)
-    setup_.policy->observe(policies::cycle_outcome{
-        .at = now,
-        .service = session.service.view(),
-        .computed_at = session.provider,
-        .latency_s = std::numeric_limits<double>::infinity(),
-        .missed = true,
-        .energy_j = service.offloaded.energy_j});
+    observe_missed(service, session.provider, now);
   if (!violation.others_hold && found.session->at == phase::remote)
     leave_beside(service, session.provider, violation.why, now);
   assert(service.find(session.provider));
@@ -313,9 +351,11 @@ void requester::end(service_state& service, provider_id provider,
   }
   log_end(service, ended, why, now);
   learn_from(service, ended, reason, now);
+  if (ended.at == phase::starting && !messages::is_planned(reason))
+    observe_missed(service, provider, now);
   std::erase_if(service.cool_until,
                 [now](const auto& other) { return other.second <= now; });
-  if (ended.at == phase::remote && !messages::is_planned(reason))
+  if (!messages::is_planned(reason))
     service.cool_until[provider] = now + protocol::cool_down;
   if (ended.at == phase::remote)
     announce_placement();
@@ -347,6 +387,18 @@ void requester::log_end(service_state& service, const requester_session& ended,
     if (!ended.joined && std::exchange(other.joined, false))
       log_switch(other.session, true, now);
   }
+}
+
+// The policy learns of a cycle of which no result came in time.
+void requester::observe_missed(const service_state& service,
+                               provider_id provider, time_point now) {
+  setup_.policy->observe(policies::cycle_outcome{
+      .at = now,
+      .service = service.service.name.view(),
+      .computed_at = provider,
+      .latency_s = std::numeric_limits<double>::infinity(),
+      .missed = true,
+      .energy_j = service.offloaded.energy_j});
 }
 
 void requester::learn_from(const service_state& service,

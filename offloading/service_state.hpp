@@ -44,7 +44,8 @@ struct requester_session {
   messages::session_id session{}; ///< From acceptance on.
   time_point accepted{};
   time_point first_data{};
-  bool joined = false; ///< Another provider ran the service already.
+  time_point confirmed{}; ///< It ran there, by the latest word of its provider.
+  bool joined = false;    ///< Another provider ran the service already.
 };
 
 /// What the requester remembers of one service.

@@ -111,6 +111,7 @@ bool source_selector::feed(source& x, time_point now) {
     return false;
   assert(!x.last_sent || *x.last_sent <= now);
   x.last_sent = now;
+  x.answers = 0;
   const auto stands = is_standby(x);
   auto input = newest_;
   input.session = x.session;
@@ -314,8 +315,9 @@ void source_selector::on_result_of(source& x,
     use(result, now);
   if (in_use() > 1)
     give_up_silent(now);
-  if (is_standby(x) && input_due(x, now))
-    feed(x, now); // it has not heard that it stands by
+  // Who answers a call twice has not heard that it stands by.
+  if (is_standby(x) && ++x.answers > 1 && input_due(x, now))
+    feed(x, now);
   assert(is_consistent());
 }
 

@@ -116,6 +116,7 @@ private:
     std::optional<std::uint64_t> last_cycle;
     std::optional<time_point> repetition_told, doubt_told; ///< In a record.
     std::optional<time_point> last_sent;
+    int answers = 0; // since then
     std::optional<time_point> last_received;
     std::optional<time_point> last_in_time;
     // Of the results since then.

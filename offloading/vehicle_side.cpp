@@ -275,6 +275,9 @@ private:
     answering_ = from;
     requester_->on_response(x, now_);
   }
+  void handle(peer_id from, const messages::session_digest& x) {
+    requester_->on_digest(x, from, now_);
+  }
   void handle(peer_id from, const messages::service_result& x) {
     if (requester_->is_peer_of(x.session.provider, from))
       requester_->on_result(x, now_);

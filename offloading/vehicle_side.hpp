@@ -21,7 +21,8 @@ using to_provider =
 /// What comes back.
 using to_vehicle =
     std::variant<messages::service_offer, messages::service_response,
-                 messages::service_result, messages::service_end>;
+                 messages::session_digest, messages::service_result,
+                 messages::service_end>;
 
 /// What the offloading side of a vehicle is made of.
 struct vehicle_side_setup : requester_setup {

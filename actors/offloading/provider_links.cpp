@@ -44,6 +44,11 @@ void provider_links::send(offloading::peer_id to,
 }
 
 void provider_links::send(offloading::peer_id to,
+                          const messages::session_digest& digest) {
+  self_->send(requesters_.at(to), digest);
+}
+
+void provider_links::send(offloading::peer_id to,
                           const messages::service_response& response) {
   std::vector<messages::provider_manager_actor> started;
   for (const auto& v : response.verdicts)

@@ -42,6 +42,8 @@ public:
   void send(offloading::peer_id to,
             const messages::service_offer& offer) override;
   void send(offloading::peer_id to,
+            const messages::session_digest& digest) override;
+  void send(offloading::peer_id to,
             const messages::service_response& response) override;
   void send(offloading::peer_id to, const messages::service_end& end) override;
   void meet(offloading::peer_id requester) override;

@@ -16,8 +16,11 @@ void requester_links::add(const messages::service_name& service,
   managers_.emplace(service, std::move(manager));
 }
 
-offloading::peer_id
-requester_links::peer_of(const messages::provider_actor& who) {
+std::optional<offloading::peer_id> requester_links::sender() {
+  const auto who =
+      caf::actor_cast<messages::provider_actor>(self_->current_sender());
+  if (!who)
+    return std::nullopt;
   if (const auto known = providers_.find(who.address()))
     return *known;
   self_->monitor(who);

@@ -26,9 +26,9 @@ public:
   void add(const messages::service_name& service,
            messages::requester_manager_actor manager);
 
-  /// @returns the number of a provider; from its first message on it is
-  /// monitored.
-  offloading::peer_id peer_of(const messages::provider_actor& who);
+  /// @returns the number of the provider that sent the message that is handled,
+  /// if anybody did; from its first one on it is monitored.
+  std::optional<offloading::peer_id> sender();
   peers<messages::provider_actor>& providers() { return providers_; }
 
   /// Takes up the managers of a response, one for each accepted service, in

@@ -50,9 +50,7 @@ struct requester_state {
     return service;
   }
 
-  void
-  on_response(messages::service_response& response,
-              const std::vector<messages::provider_manager_actor>& managers) {
+  void on_response(messages::service_response& response, const auto& managers) {
     links->take_up(response, managers);
     rules->on_response(response, now(self));
   }
@@ -84,15 +82,16 @@ requester(requester_impl::stateful_pointer<requester_state> self,
         self->state.rules->on_result(result, now(self));
       },
       [self](const messages::service_offer& offer) {
-        const auto from =
-            caf::actor_cast<messages::provider_actor>(self->current_sender());
-        if (from)
-          self->state.rules->on_offer(offer, self->state.links->peer_of(from),
-                                      now(self));
+        if (const auto from = self->state.links->sender())
+          self->state.rules->on_offer(offer, *from, now(self));
       },
       [self](messages::service_response& response,
              const std::vector<messages::provider_manager_actor>& managers) {
         self->state.on_response(response, managers);
+      },
+      [self](const messages::session_digest& digest) {
+        if (const auto from = self->state.links->sender())
+          self->state.rules->on_digest(digest, *from, now(self));
       },
       [self](const messages::service_end& end) {
         self->state.rules->on_end(end, now(self));

@@ -9,9 +9,21 @@ namespace sofof::actors {
 
 namespace {
 
-provider_connection_impl::behavior_type provider_connection(
-    provider_connection_impl::stateful_pointer<provider_connection_state> self,
-    provider_connection_setup setup) {
+using connection_pointer =
+    provider_connection_impl::stateful_pointer<provider_connection_state>;
+
+/// @returns what is done with a message of the provider.
+template <class Message>
+auto of_provider(connection_pointer self,
+                 void (provider_connection_state::*handle)(const Message&)) {
+  return [self, handle](const Message& message) {
+    if (self->state.is_from_connection())
+      (self->state.*handle)(message);
+  };
+}
+
+provider_connection_impl::behavior_type
+provider_connection(connection_pointer self, provider_connection_setup setup) {
   self->state.self = self;
   self->state.start(std::move(setup));
   self->set_down_handler(
@@ -22,32 +34,18 @@ provider_connection_impl::behavior_type provider_connection(
         if (self->state.is_from_connection())
           self->state.on_offer(station, offer);
       },
-      [self](const messages::service_response& response) {
-        if (self->state.is_from_connection())
-          self->state.on_response(response);
-      },
-      [self](const messages::service_result& result) {
-        if (self->state.is_from_connection())
-          self->state.on_result(result);
-      },
+      of_provider(self, &provider_connection_state::on_response),
+      of_provider(self, &provider_connection_state::on_digest),
+      of_provider(self, &provider_connection_state::on_result),
       [self](const messages::service_end& e) { // or of a vehicle
         if (e.from == messages::side::requester)
           self->state.on_requester_end(e);
         else if (self->state.is_from_connection())
           self->state.on_provider_end(e);
       },
-      [self](const messages::ping& sign) {
-        if (self->state.is_from_connection())
-          self->state.on_ping(sign);
-      },
-      [self](const messages::pong& echo) {
-        if (self->state.is_from_connection())
-          self->state.on_pong(echo);
-      },
-      [self](const messages::stream_id& stream) {
-        if (self->state.is_from_connection())
-          self->state.on_acknowledgement(stream);
-      },
+      of_provider(self, &provider_connection_state::on_ping),
+      of_provider(self, &provider_connection_state::on_pong),
+      of_provider(self, &provider_connection_state::on_acknowledgement),
       // Of vehicles:
       [self](station_id::rep station, const messages::its_pdu& message) {
         self->state.on_its_message(station, message);

@@ -86,6 +86,7 @@ struct provider_connection_state {
   void on_acknowledgement(const messages::stream_id& stream);
   void on_offer(station_id station, const messages::service_offer& offer);
   void on_response(const messages::service_response& response);
+  void on_digest(const messages::session_digest& digest);
   void on_result(const messages::service_result& result);
   void on_provider_end(const messages::service_end& e);
 

@@ -68,6 +68,9 @@ messages::link_actor::behavior_type provider_proxy(
         self->state.down(result);
       },
       [self](const messages::service_offer& offer) { self->state.down(offer); },
+      [self](const messages::session_digest& digest) {
+        self->state.down(digest);
+      },
       [self](const messages::service_response& response,
              const std::vector<messages::provider_manager_actor>&) {
         self->state.on_response(response);

@@ -94,6 +94,11 @@ void provider_connection_state::on_response(
              std::vector<messages::provider_manager_actor>{});
 }
 
+void provider_connection_state::on_digest(
+    const messages::session_digest& digest) {
+  send_to_vehicle(digest.station, digest);
+}
+
 void provider_connection_state::on_result(
     const messages::service_result& result) {
   if (const auto here = on_our_clock(result, *life, now(self)))

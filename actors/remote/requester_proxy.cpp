@@ -18,6 +18,9 @@ requester_proxy(messages::requester_actor::pointer self, station_id station,
       [=](const messages::service_offer& offer) {
         self->send(outbox, station.value(), offer);
       },
+      [=](const messages::session_digest& digest) {
+        self->send(outbox, digest);
+      },
       [=](const messages::service_response& response,
           const std::vector<messages::provider_manager_actor>& managers) {
         self->send(outbox, response, managers);

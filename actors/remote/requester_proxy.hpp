@@ -14,6 +14,7 @@ using vehicle_outbox = caf::typed_actor<
     messages::reacts_to<station_id::rep, messages::service_offer>,
     messages::reacts_to<messages::service_response,
                         std::vector<messages::provider_manager_actor>>,
+    messages::reacts_to<messages::session_digest>,
     messages::reacts_to<messages::service_result>,
     messages::reacts_to<messages::service_end>>;
 

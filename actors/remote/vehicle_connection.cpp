@@ -45,6 +45,9 @@ vehicle_connection_impl::behavior_type vehicle_connection(
       [self](station_id::rep station, const messages::service_offer& offer) {
         self->state.on_offer(station, offer);
       },
+      [self](const messages::session_digest& digest) {
+        self->state.on_digest(digest);
+      },
       [self](const messages::service_response& response,
              const std::vector<messages::provider_manager_actor>& managers) {
         self->state.on_response(response, managers);

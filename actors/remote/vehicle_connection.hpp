@@ -16,6 +16,7 @@ using vehicle_connection_actor = messages::provider_endpoint_actor::extend<
     messages::reacts_to<station_id::rep, messages::service_offer>,
     messages::reacts_to<messages::service_response,
                         std::vector<messages::provider_manager_actor>>,
+    messages::reacts_to<messages::session_digest>,
     messages::reacts_to<messages::service_result>,
     // Something that came by the connection was dropped for this reason.
     messages::reacts_to<std::string>>;

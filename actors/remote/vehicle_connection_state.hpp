@@ -61,6 +61,7 @@ struct vehicle_connection_state {
   // -- what the provider sends ----------------------------------------------
 
   void on_offer(station_id station, const messages::service_offer& offer);
+  void on_digest(const messages::session_digest& digest);
   void on_response(const messages::service_response& response,
                    const std::vector<messages::provider_manager_actor>& given);
   void on_result(const messages::service_result& result);

@@ -159,6 +159,9 @@ messages::vehicle_endpoint_actor::behavior_type vehicle_endpoint(
       [self](const messages::service_response& response) {
         self->state.pass_on(response);
       },
+      [self](const messages::session_digest& digest) {
+        self->state.pass_on(digest);
+      },
       [self](const messages::service_result& result) {
         self->state.pass_on(result);
       },

@@ -120,6 +120,11 @@ void vehicle_connection_state::on_offer(station_id station,
   send_to_peer(station.value(), offer);
 }
 
+void vehicle_connection_state::on_digest(
+    const messages::session_digest& digest) {
+  send_to_peer(digest);
+}
+
 void vehicle_connection_state::on_response(
     const messages::service_response& response,
     const std::vector<messages::provider_manager_actor>& given) {

@@ -46,9 +46,12 @@ struct link_state {
 
   template <class Message, class... Ts>
   void down(const Message& message, Ts&&... xs) {
+    constexpr auto kind = std::same_as<Message, messages::session_digest>
+                              ? channel::message_class::digest
+                              : channel::message_class::other;
     if (near)
-      carry(setup->down, channel::message_class::other, time_number(message),
-            near, message, std::forward<Ts>(xs)...);
+      carry(setup->down, kind, time_number(message), near, message,
+            std::forward<Ts>(xs)...);
   }
 
   // They are numbered by the time they are sent at, so that the noise of one
@@ -171,6 +174,9 @@ link(messages::link_actor::stateful_pointer<link_state> self,
         self->state.on_result(result);
       },
       [self](const messages::service_offer& offer) { self->state.down(offer); },
+      [self](const messages::session_digest& digest) {
+        self->state.down(digest);
+      },
       [self](const messages::service_response& response,
              const std::vector<messages::provider_manager_actor>& managers) {
         self->state.on_response(response, managers);

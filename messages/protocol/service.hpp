@@ -85,6 +85,24 @@ void visit_fields(auto& v, service_offer& x) {
   v("created", x.created);
 }
 
+/// What a provider believes to run for a station, told every
+/// protocol::digest_period while something does, and a little longer.
+struct session_digest {
+  provider_id provider = 0;
+  station_id station = 0;
+  /// Of the latest session that the provider had accepted by then, whoever's:
+  /// of later ones the digest says nothing, however late it comes.
+  std::uint32_t last_counter = 0;
+  std::vector<session_id> running{};
+};
+
+void visit_fields(auto& v, session_digest& x) {
+  v("provider", x.provider);
+  v("station", x.station);
+  v("last_counter", x.last_counter);
+  v("running", x.running);
+}
+
 /// A requester asks for some of the offered services.
 struct service_request {
   provider_id provider = 0;

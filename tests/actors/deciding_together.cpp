@@ -249,3 +249,35 @@ TEST_CASE_FIXTURE(provider_world, "the CODM sees whom a vehicle could ask, "
   REQUIRE(codm->sessions.size() == 1);
   CHECK(codm->served == request.candidates);
 }
+
+TEST_CASE_FIXTURE(patient_world, "a station that has fallen silent is not "
+                                 "answered when it is heard again") {
+  begin_anew(3);
+  ask(make_request({one}));
+  run_for(2s + 1ms); // it is forgotten
+  hear(inside);
+  run_for(1s);
+  CHECK(responses().empty());
+  CHECK(codm->asked.empty());
+  ask(make_request({one}));
+  stay(3s);
+  CHECK(responses().size() == 1);
+}
+
+TEST_CASE_FIXTURE(provider_world, "who asks by the name that the provider had "
+                                  "before it started again is refused in that "
+                                  "name") {
+  hear(inside);
+  auto request = make_request({one, two});
+  request.provider = boot - 1;
+  ask(request);
+  REQUIRE(responses().size() == 1);
+  CHECK(responses().front().provider == boot - 1);
+  CHECK(responses().front().number == request.number);
+  REQUIRE(verdicts().size() == 2);
+  for (const auto& v : verdicts()) {
+    CHECK(!v.accepted);
+    CHECK(v.session.provider == boot - 1);
+    CHECK(v.why == "not heard here");
+  }
+}

@@ -36,10 +36,18 @@ struct hedged_world : requester_world {
 
   session_id at_other() const { return {elsewhere, station, one, 70}; }
   void join() { result(at_other(), 1); }
-  /// The first answers the next cycle, 40 ms after its last answer.
+  /// The second one says that it runs the service, too.
+  void confirm() {
+    tell_as(other.handle, requester,
+            session_digest{elsewhere, station, 70, {at_other()}});
+  }
+  /// The first answers the next cycle, 40 ms after its last answer; each
+  /// second, the other one confirms that it runs the service, too.
   void answer_next() {
     run_for(50ms);
     result(at_here(one, 7), ++cycle);
+    if (cycle % 20 == 0)
+      confirm();
   }
   void feed() {
     for (const auto& m : vehicle->all<requester_manager_actor>())
@@ -260,4 +268,22 @@ TEST_CASE_FIXTURE(hedged_world, "a policy may have all cycles planned again") {
   offer_from(provider, here, {one, two});
   REQUIRE(second->count<service_input>() == 1);
   CHECK(!second->all<service_input>().front().standby);
+}
+
+TEST_CASE_FIXTURE(hedged_world, "an answer that was long on its way is no "
+                                "reason to call again") {
+  join();
+  answer_next();
+  second->clear();
+  run_for(65ms); // it is called for
+  REQUIRE(calls() == 1);
+  for (int k = 0; k < 4; ++k) {
+    result(at_here(one, 7), ++cycle, 5ms);
+    run_for(50ms);
+  }
+  const auto before = calls();
+  result(at_other(), 2, 60ms); // of that call, 200 ms ago
+  CHECK(calls() == before);
+  result(at_other(), 3, 5ms); // who has not heard yet goes on
+  CHECK(calls() == before + 1);
 }

@@ -148,3 +148,34 @@ TEST_CASE_FIXTURE(requester_world, "who is named but unknown, busy or itself "
   CHECK(other->count<service_request>() == 0);
   CHECK(!is_gone(requester));
 }
+
+TEST_CASE_FIXTURE(requester_world, "who is named in a refusal is not asked "
+                                   "while another request of the service is "
+                                   "open") {
+  constexpr provider_id third = 33;
+  const auto last = listen<provider_actor>();
+  lodm->wanted = {};
+  offer_from(other, elsewhere, {one});
+  offer_from(last, third, {one});
+  lodm->wanted = {"one"};
+  lodm->preferred = here;
+  lodm->second = elsewhere;
+  offer({one});
+  REQUIRE(requests() == 1);
+  REQUIRE(other->count<service_request>() == 1);
+  lodm->preferred = third;
+  lodm->second = std::nullopt;
+  refuse_and_name(*this, last_request(), third);
+  CHECK(last->count<service_request>() == 0);
+  // The one that was asked besides is wanted still.
+  const session_id there{elsewhere, station, one, 70};
+  tell(requester,
+       service_response{elsewhere,
+                        station,
+                        other->all<service_request>().back().number,
+                        {{there, true, "as told"}}},
+       std::vector{manager.handle});
+  result(there, 1);
+  CHECK(is_remote(one));
+  CHECK(other->count<service_end>() == 0);
+}

@@ -397,6 +397,24 @@ TEST_CASE_FIXTURE(requester_world,
   CHECK(!e.fallback); // the local service never stopped
 }
 
+TEST_CASE_FIXTURE(requester_world, "who accepts and gives no data is not asked "
+                                   "for a second, and the policy hears of "
+                                   "it") {
+  start({one});
+  run_for(1s);
+  REQUIRE(episodes().size() == 1);
+  REQUIRE(!lodm->cycles.empty());
+  CHECK(lodm->cycles.back().missed);
+  CHECK(lodm->cycles.back().computed_at == here);
+  offer({one});
+  run_for(1s - 1ns);
+  offer({one});
+  CHECK(requests() == 1);
+  run_for(1ns);
+  offer({one});
+  CHECK(requests() == 2);
+}
+
 TEST_CASE_FIXTURE(requester_world,
                   "data just in time keeps an accepted service") {
   start({one});

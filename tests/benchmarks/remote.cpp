@@ -111,6 +111,7 @@ requester_actor::behavior_type requester(requester_actor::pointer,
   return {
       [=](const service_result&) { come->release(); },
       [](const service_offer&) {},
+      [](const session_digest&) {},
       [=](const service_response&, const std::vector<provider_manager_actor>&) {
         come->release();
       },

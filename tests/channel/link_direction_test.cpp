@@ -80,6 +80,28 @@ TEST_CASE("no message overtakes another") {
   }
 }
 
+TEST_CASE("a digest waits for no message, and none waits for it") {
+  auto p = named("paper_5g");
+  p.network = delay_distribution::uniform(0ms, 200ms);
+  link_direction quiet{link_channel(p), direction::down, nullptr};
+  link_direction busy{link_channel(p), direction::down, nullptr};
+  int overtakes = 0, is_overtaken = 0;
+  auto last = time_point{};
+  for (std::uint64_t n = 0; n < 2000; ++n) {
+    const auto sent = time_point{n * 10ms};
+    const auto digest = *busy.arrival(sent, kind::digest, n);
+    const auto result = *busy.arrival(sent, kind::result, n);
+    REQUIRE(result == quiet.arrival(sent, kind::result, n));
+    REQUIRE(digest >= sent);
+    REQUIRE(digest <= sent + 300ms);
+    overtakes += digest < last;
+    is_overtaken += digest > result;
+    last = result;
+  }
+  CHECK(overtakes > 500);
+  CHECK(is_overtaken > 100);
+}
+
 TEST_CASE("other messages do not shift the noise of results") {
   const auto p = named("paper_sim");
   link_direction quiet{link_channel(p), direction::down, nullptr};

@@ -28,6 +28,8 @@ inline constexpr std::size_t arity<messages::cam> = 9;
 template <>
 inline constexpr std::size_t arity<messages::service_offer> = 7;
 template <>
+inline constexpr std::size_t arity<messages::session_digest> = 4;
+template <>
 inline constexpr std::size_t arity<candidate> = 3;
 template <>
 inline constexpr std::size_t arity<messages::service_request> = 7;
@@ -79,16 +81,18 @@ template <>
 inline constexpr std::size_t arity<messages::stream_id> = 3;
 
 /// Everything that travels and is not a handle.
-using all_messages = std::tuple<
-    time_point, point, messages::service_name, messages::payload,
-    messages::session_id, messages::cam, messages::service_offer,
-    messages::service_request, messages::service_response,
-    messages::service_input, messages::service_result, messages::service_end,
-    messages::qos_limits, messages::arrival, messages::qos_violation,
-    messages::lifecycle_step, messages::motion_report, messages::ego_state,
-    messages::source_change, world::perception, messages::roadside_detections,
-    messages::its_pdu, messages::peer_hello, messages::peer_welcome,
-    messages::ping, messages::pong, messages::stream_id>;
+using all_messages =
+    std::tuple<time_point, point, messages::service_name, messages::payload,
+               messages::session_id, messages::cam, messages::service_offer,
+               messages::session_digest, messages::service_request,
+               messages::service_response, messages::service_input,
+               messages::service_result, messages::service_end,
+               messages::qos_limits, messages::arrival, messages::qos_violation,
+               messages::lifecycle_step, messages::motion_report,
+               messages::ego_state, messages::source_change, world::perception,
+               messages::roadside_detections, messages::its_pdu,
+               messages::peer_hello, messages::peer_welcome, messages::ping,
+               messages::pong, messages::stream_id>;
 
 /// @returns references to all members.
 template <class T>

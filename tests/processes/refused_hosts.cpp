@@ -23,7 +23,7 @@ TEST_CASE("a provider of another version refuses, and both are named") {
   const workplace at;
   provider_process provider{at, "provider", {}};
   check_refused(at.run_sofof(drive_words("drive", provider.port(),
-                                         {"--test-protocol", "10"})),
+                                         {"--test-protocol", "9"})),
                 {"provider mec", "refuses", "protocol 9 ", "protocol 10 ",
                  "same version"});
   CHECK_FALSE(std::filesystem::exists(at / "drive")); // nothing has begun

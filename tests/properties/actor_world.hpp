@@ -8,7 +8,6 @@
 #include "messages/protocol/no_records.hpp"
 #include "messages/v2x/cam_content.hpp"
 #include "messages/v2x/encoded.hpp"
-#include "policies/registry.hpp"
 #include "tests/properties/ledger.hpp"
 #include "tests/support/echo_service.hpp"
 #include "tests/support/virtual_world.hpp"
@@ -108,17 +107,16 @@ struct actor_world : virtual_world {
   moving_client vehicle;
 
   actor_world(std::uint64_t seed, channel::link_fault_options faults,
-              int provider_count, std::string_view channel = "paper_5g")
-      : seed{seed}, faults{faults},
-        profile{std::make_shared<channel::channel_profile>(
-            *channel::find_channel_profile(channel))} {
+              int provider_count, std::string_view channel = "paper_5g",
+              const conduct& of = {})
+      : seed{seed}, faults{faults}, profile{of.on(channel)} {
     for (int k = 0; k < provider_count; ++k)
       add_provider(k);
     actors::requester_actor_setup setup;
     setup.station = shuttle::station;
     setup.path_ahead = path_ahead;
     setup.services = {{echo_service("one")}, {echo_service("two")}};
-    setup.lodm = policies::make_lodm("always");
+    setup.lodm = of.policy();
     setup.recorder = recorder;
     setup.noise = random_stream{seed, "vehicle"};
     vehicle = system().spawn(drive, diary, links, &setup);

@@ -4,17 +4,22 @@
 
 #include "base/geometry.hpp"
 #include "base/protocol.hpp"
+#include "channel/channel_profile.hpp"
 #include "channel/link_faults.hpp"
 #include "messages/protocol/motion.hpp"
 #include "messages/protocol/record.hpp"
+#include "policies/registry.hpp"
 #include "tests/support/toy_streets.hpp"
 #include "world/roads/streets.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -25,6 +30,8 @@ struct ledger {
   std::map<messages::session_id, int> closed_by_requester, closed_by_provider;
   std::map<messages::session_id, duration> provider_side; // how long it ran
   std::map<messages::session_id, time_point> accepted;    // by the provider
+  std::map<messages::session_id, time_point> left;  // by the requester, ...
+  std::map<messages::session_id, time_point> freed; // ... and by the provider
   std::set<messages::end_reason> reasons;
   int remote_episodes = 0;
   int refusals = 0; // that the requester was told of
@@ -40,6 +47,7 @@ struct ledger {
     ++(r.of == messages::side::requester ? closed_by_requester
                                          : closed_by_provider)[r.session];
     reasons.insert(r.reason);
+    (r.of == messages::side::requester ? left : freed)[r.session] = r.ended;
     if (r.of == messages::side::provider) {
       provider_side[r.session] = r.ended - r.accepted;
       accepted[r.session] = r.accepted;
@@ -58,7 +66,7 @@ struct client_diary {
     messages::service_name service;
     bool remote = false;
     time_point newest_created{};
-    time_point newest_of_source{}; // in use now
+    std::map<messages::session_id, time_point> newest_of; // in use since
     bool any_result = false;
   };
   std::vector<entry> services;
@@ -75,16 +83,17 @@ struct client_diary {
     if (e.remote == remote)
       broken.push_back("a source was chosen that was in use already");
     e.remote = remote;
-    e.newest_of_source = {};
+    e.newest_of.clear();
   }
 
   void on_result(const messages::service_result& result) {
     auto& e = of(result.session.service);
     if (e.remote != result.session.is_remote())
       broken.push_back("a result came from the source that is not in use");
-    if (result.created < e.newest_of_source)
+    auto& newest = e.newest_of[result.session];
+    if (result.created < newest)
       broken.push_back("a source's results came out of order");
-    e.newest_of_source = result.created;
+    newest = result.created;
     e.newest_created = std::max(e.newest_created, result.created);
     e.any_result = true;
   }
@@ -95,6 +104,23 @@ struct client_diary {
     for (const auto& e : services)
       if (e.any_result && now - e.newest_created > fresh)
         broken.push_back("the newest result is not fresh");
+  }
+};
+
+/// What a vehicle and its links are like.
+struct conduct {
+  std::function<std::unique_ptr<policies::local_policy>()> policy = [] {
+    return policies::make_lodm("always");
+  };
+  /// Nothing gets through meanwhile; in order.
+  std::vector<channel::outage_options> outages{};
+
+  /// @returns a channel of that name with these outages.
+  std::shared_ptr<const channel::channel_profile>
+  on(std::string_view channel) const {
+    auto profile = *channel::find_channel_profile(channel);
+    profile.outages = outages;
+    return std::make_shared<const channel::channel_profile>(std::move(profile));
   }
 };
 

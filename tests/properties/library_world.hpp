@@ -11,7 +11,6 @@
 #include "messages/v2x/geonet.hpp"
 #include "offloading/provider_side.hpp"
 #include "offloading/vehicle_side.hpp"
-#include "policies/registry.hpp"
 #include "tests/properties/ledger.hpp"
 #include "tests/support/echo_service.hpp"
 
@@ -230,8 +229,11 @@ struct library_world {
       const auto* result = std::get_if<messages::service_result>(&message);
       const auto octets = std::visit(
           [](const auto& x) { return messages::octets_of(x); }, message);
-      link.down(result ? channel::message_class::result
-                       : channel::message_class::other,
+      const auto digest =
+          std::holds_alternative<messages::session_digest>(message);
+      link.down(result   ? channel::message_class::result
+                : digest ? channel::message_class::digest
+                         : channel::message_class::other,
                 result ? result->cycle : link.time_number(), octets, number,
                 std::move(message));
     }
@@ -292,16 +294,15 @@ struct library_world {
   std::unique_ptr<offloading::vehicle_side> side;
 
   library_world(std::uint64_t seed, channel::link_fault_options faults,
-                int provider_count, std::string_view channel = "paper_5g")
-      : seed{seed}, faults{faults},
-        profile{std::make_shared<channel::channel_profile>(
-            *channel::find_channel_profile(channel))} {
+                int provider_count, std::string_view channel = "paper_5g",
+                const conduct& of = {})
+      : seed{seed}, faults{faults}, profile{of.on(channel)} {
     for (int k = 0; k < provider_count; ++k)
       providers.push_back(
           std::make_unique<provider_node>(*this, static_cast<std::size_t>(k)));
     offloading::vehicle_side_setup setup;
     setup.station = shuttle::station;
-    setup.policy = policies::make_lodm("always");
+    setup.policy = of.policy();
     setup.noise = random_stream{seed, "vehicle"};
     setup.path_ahead = path_ahead;
     for (const auto& name : {one, two})

@@ -63,6 +63,7 @@ requester_actor::behavior_type deaf(requester_actor::pointer) {
   return {
       [](const service_result&) {},
       [](const service_offer&) {},
+      [](const session_digest&) {},
       [](const service_response&, const std::vector<provider_manager_actor>&) {
       },
       [](const service_end&) {},
