@@ -84,9 +84,9 @@ public:
 ///   protocol::cool_down, nor are those that ran it beside that one.
 /// * Results of a session that is not known are dropped; its provider is told
 ///   so every protocol::unknown_result_period at most.
-/// * A provider's digests name what runs there: a session that they do not name
-///   ends here, one that is not known is ended there once more. One of which
-///   nothing comes for protocol::confirmation_timeout ends, too.
+/// * A provider's digests name what runs there: a session that two in a row do
+///   not name ends here, one that is not known is ended there once more. One of
+///   which nothing comes for protocol::confirmation_timeout ends, too.
 ///
 /// Source: Dehler & Buchholz 2025, service requester.
 /// No clock and no I/O: every call says what time it is, never less than

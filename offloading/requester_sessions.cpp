@@ -168,7 +168,8 @@ void requester::on_digest(const messages::session_digest& digest, peer_id from,
   assert(is_consistent());
 }
 
-// Ends what the provider does not run any more: its service_end was lost.
+// Ends what the provider does not run any more: its service_end was lost. A
+// first digest may have overtaken that.
 void requester::end_unconfirmed(const messages::session_digest& digest,
                                 time_point now) {
   assert(digest.station == setup_.station);
@@ -178,9 +179,11 @@ void requester::end_unconfirmed(const messages::session_digest& digest,
     if (!session || session->at == phase::requested
         || session->session.counter > digest.last_counter)
       continue;
-    if (std::ranges::count(digest.running, session->session) > 0)
+    const auto is_named =
+        std::ranges::count(digest.running, session->session) > 0;
+    if (is_named)
       session->confirmed = now;
-    else
+    if (std::exchange(session->is_unnamed, !is_named) && !is_named)
       end(service, digest.provider,
           {messages::end_reason::no_data, "its provider runs it no longer"},
           false, now);

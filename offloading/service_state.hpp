@@ -45,7 +45,8 @@ struct requester_session {
   time_point accepted{};
   time_point first_data{};
   time_point confirmed{}; ///< It ran there, by the latest word of its provider.
-  bool joined = false;    ///< Another provider ran the service already.
+  bool is_unnamed = false; ///< By the latest digest that could have named it.
+  bool joined = false;     ///< Another provider ran the service already.
 };
 
 /// What the requester remembers of one service.

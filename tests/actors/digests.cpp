@@ -109,6 +109,8 @@ TEST_CASE_FIXTURE(told_world, "what its provider says to run goes on") {
 TEST_CASE_FIXTURE(told_world,
                   "a session that its provider runs no longer ends, "
                   "and its provider is not told") {
+  tell_of(7, {}); // it may have overtaken the word of the end
+  CHECK(is_remote(one));
   tell_of(7, {});
   CHECK(!is_remote(one));
   CHECK(ends().empty());
@@ -117,9 +119,31 @@ TEST_CASE_FIXTURE(told_world,
   CHECK(episodes().front().because == "its provider runs it no longer");
 }
 
+TEST_CASE_FIXTURE(told_world, "the word of the end that comes after a digest "
+                              "says why") {
+  tell_of(7, {});
+  tell(requester,
+       service_end{at_here(one, 7), end_reason::left_area, side::provider});
+  tell_of(7, {});
+  REQUIRE(episodes().size() == 1);
+  CHECK(episodes().front().reason == end_reason::left_area);
+  CHECK(!episodes().front().fallback);
+}
+
+TEST_CASE_FIXTURE(told_world,
+                  "a session that one digest does not name, and the "
+                  "next one does, goes on") {
+  for (int k = 0; k < 3; ++k) {
+    tell_of(7, {});
+    tell_of(7, {at_here(one, 7)});
+  }
+  CHECK(is_remote(one));
+}
+
 TEST_CASE_FIXTURE(told_world, "a digest that was made before a session was "
                               "accepted does not end it, however late it "
                               "comes") {
+  tell_of(6, {});
   tell_of(6, {});
   tell_of(6, {at_here(one, 5)}); // an earlier one of the same service
   CHECK(is_remote(one));
@@ -152,10 +176,12 @@ TEST_CASE_FIXTURE(told_world, "while a request is open its provider may run "
 
 TEST_CASE_FIXTURE(told_world, "only the provider that is meant speaks of its "
                               "sessions, and only of this station's") {
-  digest_from(other, {here, station, 7, {}});
-  digest_from(other, {elsewhere, station, 7, {}});
-  digest_from(provider, {here, 999, 7, {}});
-  digest_from(provider, {elsewhere, station, 7, {}});
+  for (int k = 0; k < 2; ++k) {
+    digest_from(other, {here, station, 7, {}});
+    digest_from(other, {elsewhere, station, 7, {}});
+    digest_from(provider, {here, 999, 7, {}});
+    digest_from(provider, {elsewhere, station, 7, {}});
+  }
   auto strange = at_here(two, 8);
   strange.station = 999;
   tell_of(8, {at_here(one, 7),

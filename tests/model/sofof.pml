@@ -101,6 +101,7 @@ byte known, offered, cool, wanted, standing_by, last_request, preferred;
 byte at[3];            /* the phase at a boot */
 byte session[3];       /* its session there, from acceptance on */
 byte open_request[3];
+byte unnamed;          /* boots: the latest digest did not name the session there */
 short closed_here, accepted_here;
 /* -- RM ------------------------------------------------------------------------ */
 short sources, in_use, told_to_stand_by;
@@ -156,7 +157,11 @@ inline sr_end(b, tells, is_fault) { /* requester::end */
   to_rm!END(session[b]);
   if :: (tells && (known & BIT(b)) && MUTANT != 8) -> ends_up = ends_up | BIT(session[b]) :: else fi;
   if :: (is_fault && MUTANT != 9) -> cool = cool | BIT(b) :: else fi;
-  at[b] = NONE; session[b] = 0
+  at[b] = NONE; session[b] = 0; unnamed = unnamed & ~BIT(b)
+}
+/* end_unconfirmed: the first one may have overtaken the service_end */
+inline unnamed_by_digest(b) {
+  if :: (unnamed & BIT(b)) -> sr_end(b, 0, 1) :: else -> unnamed = unnamed | BIT(b) fi
 }
 inline leave_unwanted(k) {
   k = 0;
@@ -285,14 +290,16 @@ end: do
   /* requester::on_digest: one that names r, and none above it, ... */
   :: atomic { digests != 0 && len(to_rm) < 5 -> pick(digests, r); arrive(digests, r); b = BOOT(r);
      if :: (known & BIT(b)) ->
-           if :: (at[b] >= STARTING && (session[b] < r || MUTANT == 10) && session[b] != r) -> sr_end(b, 0, 1) :: else fi;
+           if :: (at[b] >= STARTING && (session[b] < r || MUTANT == 10) && session[b] != r) -> unnamed_by_digest(b)
+              :: HAS(r) -> unnamed = unnamed & ~BIT(b)
+              :: else fi;
            if :: ((open_request[b] == 0 || MUTANT == 12) && !HAS(r)) -> ends_up = ends_up | BIT(r) :: else fi
         :: else fi; b = 0; r = 0 }
   /* ... and one that names none, though r had been accepted */
   :: atomic { empty_digests != 0 && len(to_rm) < 5 -> pick(empty_digests, r); arrive(empty_digests, r); b = BOOT(r);
      if :: ((known & BIT(b)) && at[b] >= STARTING && (session[b] <= r || MUTANT == 10)) ->
            assert(!RUNS(session[b])); /* a late digest ends nothing that runs */
-           sr_end(b, 0, 1)
+           unnamed_by_digest(b)
         :: else fi; b = 0; r = 0 }
   :: atomic { deaths != 0 && len(to_rm) < 5 -> pick(deaths, k); deaths = deaths & ~BIT(k); /* requester::on_lost */
      if :: k == 1 -> b = 1 :: else -> b = 0 fi;
