@@ -330,8 +330,8 @@ void provider::end(station_record& station, messages::session_id session,
       messages::name_of(reason), session.station});
   station.sessions.erase(i);
   assert(!station.find(session.service));
-  station.told_until = now + protocol::digest_goes_on;
   station.next_offer = now + protocol::offer_period;
+  station.told_until = now + protocol::digest_goes_on;
 }
 
 // -- services -----------------------------------------------------------------
