@@ -89,26 +89,29 @@ void requester::expire(const request_timeout& x, time_point now) {
 
 void requester::expire(const start_timeout& x, time_point now) {
   const auto found = find(x.session);
-  if (found && found.session->at == phase::starting)
+  if (found && found.session->at == phase::starting) {
+    observe_missed(*found.service, x.session.provider, now);
     end(*found.service, x.session.provider,
         {messages::end_reason::no_data,
          in_words("no_data", now - found.session->accepted,
                   protocol::start_timeout)},
         true, now);
+  }
   assert(is_consistent());
 }
 
 // One timer for each session is under way; it moves on with what comes.
 void requester::expire(const confirmation_check& x, time_point now) {
   const auto found = find(x.session);
-  if (!found)
+  if (!found || found.session->accepted != x.accepted)
     return;
   const auto confirmed = found.session->confirmed;
   assert(confirmed <= now);
   if (now >= confirmed + protocol::confirmation_timeout)
     end(*found.service, x.session.provider,
         {messages::end_reason::no_data,
-         in_words("no_word", now - confirmed, protocol::confirmation_timeout)},
+         in_words("unconfirmed", now - confirmed,
+                  protocol::confirmation_timeout)},
         true, now);
   else
     wake_at(confirmed + protocol::confirmation_timeout, x);

@@ -84,9 +84,10 @@ public:
 ///   protocol::cool_down, nor are those that ran it beside that one.
 /// * Results of a session that is not known are dropped; its provider is told
 ///   so every protocol::unknown_result_period at most.
-/// * A provider's digests name what runs there: a session that two in a row do
-///   not name ends here, one that is not known is ended there once more. One of
-///   which nothing comes for protocol::confirmation_timeout ends, too.
+/// * A provider's digests name the sessions that run there. A session that two
+///   digests in a row do not name ends here; a session that only the provider
+///   has is ended there once more. A session ends, too, of which neither result
+///   nor digest comes for protocol::confirmation_timeout.
 ///
 /// Source: Dehler & Buchholz 2025, service requester.
 /// No clock and no I/O: every call says what time it is, never less than
@@ -150,6 +151,7 @@ private:
   /// Does its provider still say that it runs it?
   struct confirmation_check {
     messages::session_id session;
+    time_point accepted;
   };
   /// An epoch of the policy is over.
   struct epoch_end {};

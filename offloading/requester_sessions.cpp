@@ -84,11 +84,13 @@ void requester::accept(service_state& service, requester_session& session,
   log_verdict(service, session.provider, v.session.counter, v.why, true, now);
   port_.begin(v.session);
   wake_at(now + protocol::start_timeout, start_timeout{v.session});
-  wake_at(now + protocol::confirmation_timeout, confirmation_check{v.session});
+  wake_at(now + protocol::confirmation_timeout,
+          confirmation_check{v.session, now});
 }
 
 // @param instead  The provider that it would have asked. The vehicle decides
-// about that one anew; the one that refuses is not asked again at once.
+// about that one anew, unless another request of the service is open; the one
+// that refuses is not asked again at once.
 void requester::refuse(service_state& service, provider_id provider,
                        std::string_view why, std::optional<provider_id> instead,
                        time_point now) {
@@ -354,8 +356,6 @@ void requester::end(service_state& service, provider_id provider,
   }
   log_end(service, ended, why, now);
   learn_from(service, ended, reason, now);
-  if (ended.at == phase::starting && !messages::is_planned(reason))
-    observe_missed(service, provider, now);
   std::erase_if(service.cool_until,
                 [now](const auto& other) { return other.second <= now; });
   if (!messages::is_planned(reason))

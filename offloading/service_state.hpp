@@ -44,7 +44,7 @@ struct requester_session {
   messages::session_id session{}; ///< From acceptance on.
   time_point accepted{};
   time_point first_data{};
-  time_point confirmed{}; ///< It ran there, by the latest word of its provider.
+  time_point confirmed{};  ///< By the latest acceptance, result or digest.
   bool is_unnamed = false; ///< By the latest digest that could have named it.
   bool joined = false;     ///< Another provider ran the service already.
 };

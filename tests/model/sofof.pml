@@ -62,7 +62,8 @@
 #endif
 #ifndef MUTANT
 #define MUTANT 0  /* a rule that is left out: tests/acceptance/proof has those that
-                     spin finds; 2, 4, 6 to 9, 11, 12 and 22 another rule covers */
+                     spin finds; docs/model.md has why it does not find 2, 4, 6 to
+                     9, 11, 12 and 22 */
 #endif
 
 #if CRASH
