@@ -29,8 +29,8 @@ inline constexpr duration cam_timeout = 2s;
 inline constexpr duration ego_period = 100ms;
 /// Between two answers to results of unknown sessions.
 inline constexpr duration unknown_result_period = 200ms;
-/// Between two digests of what runs for a station; the last one comes so long
-/// after nothing does any more.
+/// Between two digests of what runs for a station; they go on for so long when
+/// nothing does any more.
 inline constexpr duration digest_period = 500ms;
 inline constexpr duration digest_goes_on = digest_period * 4;
 /// A session is over of which neither a result nor a digest has come for

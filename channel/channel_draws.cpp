@@ -154,7 +154,8 @@ bool channel_draws::is_out(duration since_start) const {
 channel_draws::streams channel_draws::split(std::string_view direction,
                                             std::uint32_t provider) const {
   const auto s = provider_part(of_radio_, direction, provider);
-  return {s.part(results_part), s.part("others"), s.part("bursts")};
+  return {s.part(results_part), s.part("others"), s.part("digests"),
+          s.part("bursts")};
 }
 
 const channel_draws::streams& channel_draws::of(direction to) const {
@@ -163,7 +164,15 @@ const channel_draws::streams& channel_draws::of(direction to) const {
 
 const random_stream& channel_draws::of(const message_id& m) const {
   const auto& streams = of(m.to);
-  return m.kind == message_class::result ? streams.results : streams.others;
+  switch (m.kind) {
+    case message_class::result:
+      return streams.results;
+    case message_class::digest:
+      return streams.digests;
+    case message_class::other:
+      break;
+  }
+  return streams.others;
 }
 
 random_stream result_draws(const random_stream& seed, station_id station,

@@ -82,6 +82,7 @@ private:
   struct streams {
     random_stream results;
     random_stream others;
+    random_stream digests;
     random_stream bursts;
   };
   streams split(std::string_view direction, std::uint32_t provider) const;

@@ -50,7 +50,8 @@ bool provider::station_record::is_consistent() const {
   const auto is_only_one = [this](const provider_session& x) {
     return find(x.session.service) == &x && x.session.is_remote();
   };
-  return number != 0 && requester && std::ranges::all_of(sessions, is_only_one);
+  return number != 0 && requester && (is_told || sessions.empty())
+         && std::ranges::all_of(sessions, is_only_one);
 }
 
 // Requests wait for the end of an epoch.
@@ -60,8 +61,10 @@ bool provider::is_consistent() const {
     return station.is_consistent() && station.latest.station == id
            && station.heard <= now_
            && !protocol::is_of_future(station.latest.at, now_)
-           && station.is_inside
-                  == setup_.area.contains(station.latest.position);
+           && station.is_inside == setup_.area.contains(station.latest.position)
+           && std::ranges::all_of(station.sessions, [this](const auto& x) {
+                return x.session.counter <= last_session_ && x.since <= now_;
+              });
   };
   return std::ranges::all_of(stations_, is_sound)
          && (waiting_.empty() || in_epoch_);
@@ -187,7 +190,9 @@ void provider::meet(station_id id, station_record& station, peer_id requester,
                     time_point now) {
   assert(station.requester != requester);
   if (station.requester) {
-    drop_waiting(id);
+    auto dropped = drop_waiting(id);
+    dropped.erase(requester); // which may have asked before it was heard
+    part_from(dropped);
     leave(station,
           {messages::end_reason::peer_lost, "the station has a new requester"},
           now);
@@ -246,7 +251,7 @@ void provider::offer(station_record& station, time_point now) {
 void provider::forget(stations::iterator i, const ending& why, time_point now) {
   assert(why.reason != messages::end_reason::cam_timeout
          || now - i->second.heard > protocol::cam_timeout);
-  drop_waiting(i->first);
+  part_from(drop_waiting(i->first));
   leave(i->second, why, now);
   stations_.erase(i);
 }

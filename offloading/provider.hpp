@@ -16,6 +16,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string_view>
 #include <variant>
@@ -108,9 +109,9 @@ public:
 ///   that ends.
 /// * Each session is closed once; the requester is told, unless it was the one
 ///   to say so.
-/// * A station is told every protocol::digest_period what runs for it, and
-///   still is for protocol::digest_goes_on after nothing does: an end that was
-///   lost is found by either side.
+/// * A station is told every protocol::digest_period what runs for it, and,
+///   while it is heard, for protocol::digest_goes_on after nothing does: an end
+///   that was lost is found by either side.
 ///
 /// Source: Dehler & Buchholz 2025, service provider.
 /// No clock and no I/O: every call says what time it is, never less than
@@ -186,12 +187,12 @@ private:
     time_point next_offer;
     std::uint32_t last_request = 0;
     std::vector<provider_session> sessions;
-    bool is_told = false;    // digests are under way
-    time_point told_until{}; // at least
+    bool is_told = false;    // the next digest has its timer
+    time_point told_until{}; // though nothing runs
 
     const provider_session* find(const messages::service_name& service) const;
-    /// Whether it has a requester, and no service runs for it twice; between
-    /// two calls it always is.
+    /// Whether it has a requester, which is told of what runs, and no service
+    /// runs for it twice; between two calls it always is.
     bool is_consistent() const;
   };
   using stations = std::map<station_id, station_record>;
@@ -225,7 +226,8 @@ private:
   void offer(station_record& station, time_point now);
   void begin_digests(station_record& station, time_point now);
   void forget(stations::iterator i, const ending& why, time_point now);
-  void drop_waiting(station_id station);
+  std::set<peer_id> drop_waiting(station_id station);
+  void part_from(const std::set<peer_id>& requesters);
 
   void answer(std::vector<open_request> requests, time_point now);
   void refuse(const messages::service_request& request, peer_id from,

@@ -30,17 +30,30 @@ void provider::on_request(const messages::service_request& request,
     return;
   }
   assert(waiting_.empty() || in_epoch_);
-  drop_waiting(request.station); // it has given that up
+  const auto before = drop_waiting(request.station); // it has given that up
   waiting_.push_back({request, from});
+  part_from(before);
   if (!std::exchange(in_epoch_, true))
     wake_at(now + epoch_, epoch_end{});
   assert(is_consistent());
 }
 
-void provider::drop_waiting(station_id station) {
-  std::erase_if(waiting_, [station](const open_request& open) {
-    return open.what.station == station;
+// @returns by whom its requests came.
+std::set<peer_id> provider::drop_waiting(station_id station) {
+  std::set<peer_id> dropped;
+  std::erase_if(waiting_, [&](const open_request& open) {
+    const auto is_meant = open.what.station == station;
+    if (is_meant)
+      dropped.insert(open.from);
+    return is_meant;
   });
+  return dropped;
+}
+
+void provider::part_from(const std::set<peer_id>& requesters) {
+  for (const auto peer : requesters)
+    if (!serves(peer))
+      port_.leave(peer);
 }
 
 void provider::refuse(const messages::service_request& request, peer_id from,
@@ -82,9 +95,7 @@ void provider::answer(std::vector<open_request> requests, time_point now) {
   std::set<peer_id> answered;
   for (const auto& open : requests)
     answered.insert(open.from);
-  for (const auto peer : answered)
-    if (!serves(peer))
-      port_.leave(peer);
+  part_from(answered);
 }
 
 // The policy is asked about the services that are offered, once each.

@@ -31,13 +31,19 @@ void requester::pass(time_point now) {
   now_ = now;
 }
 
-// Only providers that are known run or are asked for anything, and what a
-// provider is asked for waits for the answer to an open request.
+// Only providers that are known run or are asked for anything; what a provider
+// is asked for waits for the answer to an open request, and what it runs has a
+// counter that it has used.
 bool requester::is_consistent() const {
   const auto is_known = [this](const requester_session& x) {
     const auto provider = providers_.find(x.provider);
-    return provider != providers_.end()
-           && (x.at != phase::requested || provider->second.open_request);
+    if (provider == providers_.end())
+      return false;
+    if (x.at == phase::requested)
+      return provider->second.open_request.has_value();
+    return x.session.counter <= provider->second.last_counter
+           && x.accepted <= x.confirmed && x.confirmed <= now_
+           && x.unnamed_since.value_or(now_) <= now_;
   };
   return std::ranges::all_of(services_, [&](const service_state& service) {
     return service.is_consistent()

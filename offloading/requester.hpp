@@ -86,8 +86,9 @@ public:
 ///   so every protocol::unknown_result_period at most.
 /// * A provider's digests name the sessions that run there. A session that two
 ///   digests in a row do not name ends here; a session that only the provider
-///   has is ended there once more. A session ends, too, of which neither result
-///   nor digest comes for protocol::confirmation_timeout.
+///   has is ended there once more, every protocol::unknown_result_period at
+///   most. A session ends, too, of which neither result nor digest comes for
+///   protocol::confirmation_timeout.
 ///
 /// Source: Dehler & Buchholz 2025, service requester.
 /// No clock and no I/O: every call says what time it is, never less than
@@ -210,6 +211,8 @@ private:
               std::string_view why, std::optional<provider_id> instead,
               time_point now);
   void complain(const messages::session_id& session, time_point now);
+  void end_unknown(const messages::session_digest& digest,
+                   std::optional<time_point>& last, time_point now);
   void end_unconfirmed(const messages::session_digest& digest, time_point now);
 
   std::vector<provider_id>

@@ -51,8 +51,11 @@ void requester::on_response(const messages::service_response& response,
     auto* service = find(v.session.service);
     auto* session = service ? service->find(response.provider) : nullptr;
     const auto open = expected && session && session->at == phase::requested;
-    if (open && v.accepted)
+    const auto is_new = expected && v.session.counter > i->second.last_counter;
+    if (open && v.accepted && is_new)
       accept(*service, *session, v, now);
+    else if (open && v.accepted)
+      refuse(*service, response.provider, "its counter did not rise", {}, now);
     else if (open)
       refuse(*service, response.provider, v.why, v.instead, now);
     else if (v.accepted && !find(v.session)) // not just a duplicate
@@ -78,6 +81,9 @@ void requester::accept(service_state& service, requester_session& session,
   assert(v.session.provider == session.provider);
   assert(v.session.is_remote());
   assert(v.accepted && !find(v.session));
+  auto& newest = providers_.at(session.provider).last_counter;
+  assert(v.session.counter > newest);
+  newest = v.session.counter;
   session.at = phase::starting;
   session.session = v.session;
   session.accepted = session.confirmed = now;
@@ -157,21 +163,32 @@ void requester::on_digest(const messages::session_digest& digest, peer_id from,
   end_unconfirmed(digest, now);
   // What answers an open request may not have come yet.
   if (!i->second.open_request)
-    for (const auto& service : services_) {
-      const auto running =
-          std::ranges::find_if(digest.running, [&](const auto& x) {
-            return x.provider == digest.provider && x.station == digest.station
-                   && x.is_remote() && x.service == service.service.name;
-          });
-      if (running != digest.running.end() && !find(*running))
-        send_end({*running, messages::end_reason::no_data,
-                  messages::side::requester});
-    }
+    end_unknown(digest, i->second.last_correction, now);
   assert(is_consistent());
 }
 
+// Ends once more, at the provider, what runs there for nothing.
+void requester::end_unknown(const messages::session_digest& digest,
+                            std::optional<time_point>& last, time_point now) {
+  assert(digest.station == setup_.station);
+  if (last && now - *last < protocol::unknown_result_period)
+    return;
+  for (const auto& service : services_) {
+    const auto running =
+        std::ranges::find_if(digest.running, [&](const auto& x) {
+          return x.provider == digest.provider && x.station == digest.station
+                 && x.is_remote() && x.service == service.service.name;
+        });
+    if (running == digest.running.end() || find(*running))
+      continue;
+    last = now;
+    send_end(
+        {*running, messages::end_reason::no_data, messages::side::requester});
+  }
+}
+
 // Ends what the provider does not run any more: its service_end was lost. A
-// first digest may have overtaken that.
+// first digest may have overtaken that, and a copy of it is no second one.
 void requester::end_unconfirmed(const messages::session_digest& digest,
                                 time_point now) {
   assert(digest.station == setup_.station);
@@ -183,12 +200,17 @@ void requester::end_unconfirmed(const messages::session_digest& digest,
       continue;
     const auto is_named =
         std::ranges::count(digest.running, session->session) > 0;
-    if (is_named)
+    auto& since = session->unnamed_since;
+    if (is_named) {
       session->confirmed = now;
-    if (std::exchange(session->is_unnamed, !is_named) && !is_named)
+      since.reset();
+    } else if (!since) {
+      since = now;
+    } else if (now - *since >= protocol::digest_period / 2) {
       end(service, digest.provider,
           {messages::end_reason::no_data, "its provider runs it no longer"},
           false, now);
+    }
   }
 }
 

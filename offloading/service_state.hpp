@@ -19,8 +19,12 @@ namespace sofof::offloading {
 struct known_provider {
   peer_id peer{};
   std::optional<std::uint32_t> open_request{};
+  /// Of a session that it has accepted; the next one's is above.
+  std::uint32_t last_counter = 0;
   /// About results of unknown sessions.
   std::optional<time_point> last_complaint{};
+  /// Of a digest, by which sessions were ended there that only it has.
+  std::optional<time_point> last_correction{};
   /// The latest, without what was asked for since.
   messages::service_offer offer{};
   time_point offered_at{};
@@ -44,9 +48,10 @@ struct requester_session {
   messages::session_id session{}; ///< From acceptance on.
   time_point accepted{};
   time_point first_data{};
-  time_point confirmed{};  ///< By the latest acceptance, result or digest.
-  bool is_unnamed = false; ///< By the latest digest that could have named it.
-  bool joined = false;     ///< Another provider ran the service already.
+  time_point confirmed{}; ///< By the latest acceptance, result or digest.
+  /// Since when no digest has named it that could have.
+  std::optional<time_point> unnamed_since{};
+  bool joined = false; ///< Another provider ran the service already.
 };
 
 /// What the requester remembers of one service.

@@ -124,6 +124,18 @@ TEST_CASE_FIXTURE(patient_world, "a station that has begun anew is not "
   CHECK(reborn->count<service_response>() == 1);
 }
 
+TEST_CASE_FIXTURE(patient_world, "a new requester may have asked before it is "
+                                 "heard") {
+  const auto reborn = listen<requester_actor>();
+  const service_request asked{boot, station, 1, {one}, {inside}, 10};
+  tell(provider, asked, reborn.handle);
+  run_for(100ms);
+  hear(inside, reborn);
+  tell(provider, asked, reborn.handle);
+  run_for(250ms);
+  CHECK(reborn->count<service_response>() == 1);
+}
+
 TEST_CASE_FIXTURE(patient_world, "what the CODM leaves undecided is refused") {
   codm->at_most = 2;
   ask(make_request({one, two}));

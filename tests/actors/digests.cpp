@@ -27,6 +27,14 @@ struct told_world : requester_world {
   void tell_of(std::uint32_t last_counter, std::vector<session_id> running) {
     digest_from(provider, {here, station, last_counter, std::move(running)});
   }
+  /// Results go on until the next digest is due.
+  void pass_digest_period() {
+    for (int k = 0; k < 10; ++k) {
+      run_for(protocol::digest_period / 10);
+      result(at_here(one, 7), ++cycle);
+    }
+  }
+  std::uint64_t cycle = 2; // of the latest result
   void digest_from(const probe<provider_actor>& from,
                    const session_digest& digest) {
     tell_as(from.handle, requester, digest);
@@ -111,12 +119,21 @@ TEST_CASE_FIXTURE(told_world,
                   "and its provider is not told") {
   tell_of(7, {}); // it may have overtaken the word of the end
   CHECK(is_remote(one));
+  pass_digest_period();
+  CHECK(is_remote(one));
   tell_of(7, {});
   CHECK(!is_remote(one));
   CHECK(ends().empty());
   REQUIRE(episodes().size() == 1);
   CHECK(episodes().front().reason == end_reason::no_data);
   CHECK(episodes().front().because == "its provider runs it no longer");
+}
+
+TEST_CASE_FIXTURE(told_world, "a digest and its copy are one") {
+  tell_of(7, {});
+  run_for(20ms);
+  tell_of(7, {});
+  CHECK(is_remote(one));
 }
 
 TEST_CASE_FIXTURE(told_world, "the word of the end that comes after a digest "
@@ -135,7 +152,9 @@ TEST_CASE_FIXTURE(told_world,
                   "next one does, goes on") {
   for (int k = 0; k < 3; ++k) {
     tell_of(7, {});
+    pass_digest_period();
     tell_of(7, {at_here(one, 7)});
+    pass_digest_period();
   }
   CHECK(is_remote(one));
 }
@@ -144,7 +163,9 @@ TEST_CASE_FIXTURE(told_world, "a digest that was made before a session was "
                               "accepted does not end it, however late it "
                               "comes") {
   tell_of(6, {});
+  pass_digest_period();
   tell_of(6, {});
+  pass_digest_period();
   tell_of(6, {at_here(one, 5)}); // an earlier one of the same service
   CHECK(is_remote(one));
 }
@@ -156,9 +177,30 @@ TEST_CASE_FIXTURE(told_world, "what a provider runs for nothing is ended there "
     REQUIRE(ends().size() == static_cast<std::size_t>(k));
     CHECK(ends().back().session == at_here(two, 8));
     CHECK(ends().back().from == side::requester);
+    pass_digest_period();
   }
   tell_of(8, {at_here(one, 7)});
   CHECK(ends().size() == 3);
+  CHECK(is_remote(one));
+}
+
+TEST_CASE_FIXTURE(told_world, "a hundred digests in one instant are answered "
+                              "once") {
+  for (int k = 0; k < 100; ++k)
+    tell_of(8, {at_here(one, 7), at_here(two, 8)});
+  CHECK(ends().size() == 1);
+}
+
+TEST_CASE_FIXTURE(told_world, "a provider that accepts with a counter that it "
+                              "has used before is not believed") {
+  offer({two});
+  const auto number = provider->all<service_request>().back().number;
+  tell(requester,
+       service_response{here, station, number, {{at_here(two, 7), true, {}}}},
+       std::vector{listen<provider_manager_actor>().handle});
+  run_for(50ms);
+  result(at_here(two, 7), 1);
+  CHECK(!is_remote(two));
   CHECK(is_remote(one));
 }
 
@@ -181,6 +223,7 @@ TEST_CASE_FIXTURE(told_world, "only the provider that is meant speaks of its "
     digest_from(other, {elsewhere, station, 7, {}});
     digest_from(provider, {here, 999, 7, {}});
     digest_from(provider, {elsewhere, station, 7, {}});
+    pass_digest_period();
   }
   auto strange = at_here(two, 8);
   strange.station = 999;
