@@ -17,6 +17,7 @@ void add_train(CLI::App& app, int& exit_code);
 void add_explain(CLI::App& app, int& exit_code);
 void add_report(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
+void add_check_trace(CLI::App& app, int& exit_code);
 void add_policies(CLI::App& app, int& exit_code);
 void add_solve(CLI::App& app, int& exit_code);
 void add_decode(CLI::App& app, int& exit_code);

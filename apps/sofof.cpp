@@ -77,6 +77,7 @@ int obey(int argc, char** argv) {
   sofof::apps::add_report(app, exit_code);
   sofof::apps::add_explain(app, exit_code);
   sofof::apps::add_check(app, exit_code);
+  sofof::apps::add_check_trace(app, exit_code);
   sofof::apps::add_policies(app, exit_code);
   sofof::apps::add_solve(app, exit_code);
   sofof::apps::add_decode(app, exit_code);

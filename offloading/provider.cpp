@@ -28,7 +28,9 @@ cycle_setup cycle_of(const offered_service& service,
 }
 
 provider::provider(provider_setup setup, provider_port& port)
-    : setup_{std::move(setup)}, port_{port} {
+    : setup_{std::move(setup)}, port_{port}, trace_{
+                                                 messages::trace_part::provider,
+                                                 sink_of(setup_.trace, port)} {
   assert(setup_.policy && setup_.map);
   assert(setup_.computer.workers > 0);
   assert(std::ranges::all_of(setup_.services, [](const offered_service& x) {
@@ -112,6 +114,7 @@ void provider::expire(const digest_due& x, time_point now) {
   messages::session_digest digest{setup_.id, x.station, last_session_, {}};
   for (const auto& session : station.sessions)
     digest.running.push_back(session.session);
+  trace_.add(step::digest_sent, digest, now);
   port_.send(*station.requester, digest);
   station.is_told = !station.sessions.empty() || now < station.told_until;
   if (station.is_told)
@@ -142,6 +145,8 @@ void provider::on_cam(const messages::cam& c, peer_id from, time_point now) {
     return; // overtaken on its way
   if (protocol::is_of_future(c.at, now))
     return; // all true ones would seem overtaken
+  trace_.add(step::heard, setup_.id, c.station, now,
+             setup_.area.contains(c.position) ? "inside" : "outside");
   auto [i, is_new] = stations_.try_emplace(c.station);
   auto& station = i->second;
   if (is_new) {
@@ -198,6 +203,7 @@ void provider::meet(station_id id, station_record& station, peer_id requester,
           now);
   }
   assert(station.sessions.empty());
+  trace_.add(step::met, setup_.id, id, now);
   if (!serves(requester))
     port_.meet(requester);
   station.requester = requester;
@@ -237,20 +243,23 @@ void provider::offer(station_record& station, time_point now) {
   if (idle.empty())
     return;
   station.next_offer = now + protocol::offer_period;
-  port_.send(*station.requester,
-             messages::service_offer{
-                 .provider = setup_.id,
-                 .position = setup_.position,
-                 .services = std::move(idle),
-                 .utilisation = utilisation(),
-                 .workers = static_cast<std::uint32_t>(setup_.computer.workers),
-                 .computing = from_seconds(setup_.computer.mean_s),
-                 .created = now});
+  const messages::service_offer made{
+      .provider = setup_.id,
+      .position = setup_.position,
+      .services = std::move(idle),
+      .utilisation = utilisation(),
+      .workers = static_cast<std::uint32_t>(setup_.computer.workers),
+      .computing = from_seconds(setup_.computer.mean_s),
+      .created = now};
+  trace_.add(step::offer_sent, made, station.latest.station, now);
+  port_.send(*station.requester, made);
 }
 
 void provider::forget(stations::iterator i, const ending& why, time_point now) {
   assert(why.reason != messages::end_reason::cam_timeout
          || now - i->second.heard > protocol::cam_timeout);
+  trace_.add(step::forgotten, setup_.id, i->first, now,
+             messages::name_of(why.reason));
   part_from(drop_waiting(i->first));
   leave(i->second, why, now);
   stations_.erase(i);
@@ -275,6 +284,7 @@ void provider::on_lost(peer_id peer, messages::end_reason why, time_point now) {
 
 void provider::shut_down(time_point now) {
   pass(now);
+  trace_.add(step::shut_down, setup_.id, 0, now);
   while (!stations_.empty())
     forget(stations_.begin(), messages::end_reason::shutdown, now);
 }
@@ -286,9 +296,11 @@ void provider::on_end(const messages::service_end& e, time_point now) {
   if (e.from != messages::side::requester)
     return;
   const auto i = stations_.find(e.session.station);
-  if (i != stations_.end())
+  if (i != stations_.end()) {
+    trace_.add(step::end_got, e, now);
     end(i->second, e.session,
         {e.reason, std::string{messages::told_by_vehicle}}, false, now);
+  }
   assert(is_consistent());
 }
 
@@ -296,12 +308,14 @@ void provider::on_function_lost(const messages::session_id& session,
                                 messages::end_reason why, time_point now) {
   pass(now);
   const auto i = stations_.find(session.station);
-  if (i != stations_.end())
-    end(i->second, session,
-        {why, why == messages::end_reason::no_data
-                  ? "no input of the vehicle came"
-                  : "its function has died"},
-        true, now);
+  if (i == stations_.end())
+    return;
+  trace_.add(step::function_lost, session, now, messages::name_of(why));
+  end(i->second, session,
+      {why, why == messages::end_reason::no_data
+                ? "no input of the vehicle came"
+                : "its function has died"},
+      true, now);
   assert(is_consistent());
 }
 
@@ -316,10 +330,12 @@ void provider::end(station_record& station, messages::session_id session,
   assert(i->since <= now);
   const auto reason = why.reason;
   messages::service_end e{session, reason, messages::side::provider};
+  trace_.add(step::closed, e, now);
   port_.end(e);
   if (tell) {
     if (const auto* service = find(session.service))
       e.what = service->here->termination_message(e, now);
+    trace_.add(step::end_sent, e, now);
     port_.send(*station.requester, e);
   }
   port_.record(messages::episode_record{.session = session,

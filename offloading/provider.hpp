@@ -8,6 +8,7 @@
 #include "offloading/peer.hpp"
 #include "offloading/service_cycle.hpp"
 #include "offloading/timer_list.hpp"
+#include "offloading/tracer.hpp"
 #include "policies/api/context.hpp"
 
 #include <cstddef>
@@ -44,6 +45,7 @@ struct provider_setup {
   std::shared_ptr<const world::road_map> map =
       std::make_shared<const world::road_map>();
   random_stream noise{0, ""}; ///< Of this provider.
+  bool trace = false;         ///< Record each step.
 };
 
 /// A session that begins.
@@ -154,6 +156,8 @@ public:
   bool serves(peer_id requester) const;
 
 private:
+  using step = messages::trace_step;
+
   /// Has the station fallen silent, whose record has this number?
   struct station_check {
     station_id station = 0;
@@ -252,6 +256,7 @@ private:
 
   provider_setup setup_;
   provider_port& port_;
+  tracer trace_;
   stations stations_;
   std::vector<open_request> waiting_; // for the end of an epoch
   timer_list<timer> timers_;

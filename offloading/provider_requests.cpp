@@ -15,6 +15,8 @@ void provider::on_request(const messages::service_request& request,
                           peer_id from, time_point now) {
   pass(now);
   const auto i = stations_.find(request.station);
+  if (request.provider == setup_.id)
+    trace_.add(step::request_got, request, now);
   if (request.provider != setup_.id || i == stations_.end()) {
     refuse(request, from, "not heard here");
     return;
@@ -47,6 +49,9 @@ std::set<peer_id> provider::drop_waiting(station_id station) {
       dropped.insert(open.from);
     return is_meant;
   });
+  assert(std::ranges::none_of(waiting_, [station](const open_request& open) {
+    return open.what.station == station;
+  }));
   return dropped;
 }
 
@@ -66,6 +71,8 @@ void provider::refuse(const messages::service_request& request, peer_id from,
     response.verdicts.push_back({{request.provider, request.station, name, 0},
                                  false,
                                  std::string{why}});
+  if (request.provider == setup_.id)
+    trace_.add(step::response_sent, response, now_);
   port_.send(from, response);
 }
 
@@ -206,6 +213,7 @@ void provider::respond(const open_request& open,
     response.verdicts.push_back(std::move(v));
   }
   assert(response.verdicts.size() == request.services.size());
+  trace_.add(step::response_sent, response, now);
   port_.send(open.from, response);
 }
 
@@ -229,6 +237,7 @@ void provider::start(station_record& station,
   station.sessions.push_back({session, now, task, terms.worker,
                               open.what.candidates,
                               station.is_inside || asked_inside});
+  trace_.add(step::begun, session, now, asked_inside ? "inside" : "outside");
   begin_digests(station, now);
   port_.start({.session = session,
                .requester = open.from,

@@ -14,7 +14,9 @@ namespace sofof::offloading {
 
 requester::requester(requester_setup setup, requester_port& port,
                      time_point now)
-    : setup_{std::move(setup)}, port_{port}, now_{now} {
+    : setup_{std::move(setup)}, port_{port},
+      trace_{messages::trace_part::requester, sink_of(setup_.trace, port)},
+      now_{now} {
   assert(setup_.policy && setup_.path_ahead);
   for (auto& service : setup_.services) {
     assert(!find(service.name));
@@ -89,6 +91,7 @@ void requester::expire(const request_timeout& x, time_point now) {
   if (i == providers_.end() || i->second.open_request != x.number)
     return;
   i->second.open_request.reset();
+  trace_.add(step::request_over, x.provider, setup_.station, now, {}, x.number);
   refuse_requested(x.provider, "no answer", now);
   assert(is_consistent());
 }
@@ -164,6 +167,7 @@ void requester::on_offer(const messages::service_offer& offer, peer_id from,
   assert(provider.offered_at <= now);
   if (provider.peer != from)
     return;
+  trace_.add(step::offer_got, offer, setup_.station, now);
   provider.offer = offer;
   provider.offered_at = now;
   learn(offer, now);
@@ -187,7 +191,10 @@ known_provider& requester::meet(provider_id id, peer_id peer) {
   const auto doubted =
       before != providers_.end() ? before->second.doubted : distrust{};
   std::erase_if(providers_, [&](const auto& known) {
-    return is_same(known) && !is_in_use(known.first);
+    const auto is_over = is_same(known) && !is_in_use(known.first);
+    if (is_over)
+      trace_.add(step::peer_lost, known.first, setup_.station, now_);
+    return is_over;
   });
   for (auto& service : services_)
     std::erase_if(service.links, [&](const auto& link) {
@@ -238,6 +245,7 @@ void requester::on_lost(peer_id peer, time_point now) {
     }
     const auto id = i->first;
     i = providers_.erase(i);
+    trace_.add(step::peer_lost, id, setup_.station, now);
     log(messages::event_type::peer_lost, {id, setup_.station, {}, 0}, {}, now);
     for (auto& service : services_) {
       const auto* session = service.find(id);
@@ -393,9 +401,11 @@ void requester::request(provider_id id,
     service->sessions.push_back({.provider = id});
     log(messages::event_type::request, {id, setup_.station, name, 0}, {}, now);
   }
-  port_.send(provider.peer, messages::service_request{
-                                id, setup_.station, number, std::move(wanted),
-                                path, ego_.own.speed_mps, std::move(told)});
+  const messages::service_request asked{
+      id,   setup_.station,     number,         std::move(wanted),
+      path, ego_.own.speed_mps, std::move(told)};
+  trace_.add(step::request_sent, asked, now);
+  port_.send(provider.peer, asked);
   wake_at(now + protocol::request_timeout, request_timeout{id, number});
 }
 

@@ -10,6 +10,7 @@
 #include "offloading/service_state.hpp"
 #include "offloading/standby.hpp"
 #include "offloading/timer_list.hpp"
+#include "offloading/tracer.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -35,6 +36,7 @@ struct requester_setup {
       [](const messages::ego_state&) { return std::vector<point>{}; };
   /// What is to come, where a run can tell; else null.
   std::shared_ptr<const policies::channel_oracle> future{};
+  bool trace = false; ///< Record each step.
 };
 
 /// What a requester makes others do. Nothing of this calls the requester back.
@@ -140,6 +142,8 @@ public:
   void shut_down(time_point now);
 
 private:
+  using step = messages::trace_step;
+
   /// A request is open for too long.
   struct request_timeout {
     provider_id provider = 0;
@@ -241,6 +245,7 @@ private:
 
   requester_setup setup_;
   requester_port& port_;
+  tracer trace_;
   std::vector<service_state> services_;
   known_providers providers_;
   messages::ego_state ego_;

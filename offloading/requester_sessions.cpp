@@ -36,6 +36,7 @@ messages::end_reason reason_of(messages::qos_breach breach) {
 void requester::on_response(const messages::service_response& response,
                             time_point now) {
   pass(now);
+  trace_.add(step::response_got, response, now);
   const auto i = providers_.find(response.provider);
   const auto expected =
       i != providers_.end() && i->second.open_request == response.number;
@@ -87,6 +88,7 @@ void requester::accept(service_state& service, requester_session& session,
   session.at = phase::starting;
   session.session = v.session;
   session.accepted = session.confirmed = now;
+  trace_.add(step::begun, v.session, now);
   log_verdict(service, session.provider, v.session.counter, v.why, true, now);
   port_.begin(v.session);
   wake_at(now + protocol::start_timeout, start_timeout{v.session});
@@ -160,6 +162,7 @@ void requester::on_digest(const messages::session_digest& digest, peer_id from,
   if (digest.station != setup_.station || i == providers_.end()
       || i->second.peer != from)
     return;
+  trace_.add(step::digest_got, digest, now);
   end_unconfirmed(digest, now);
   // What answers an open request may not have come yet.
   if (!i->second.open_request)
@@ -171,6 +174,8 @@ void requester::on_digest(const messages::session_digest& digest, peer_id from,
 void requester::end_unknown(const messages::session_digest& digest,
                             std::optional<time_point>& last, time_point now) {
   assert(digest.station == setup_.station);
+  assert(!providers_.at(digest.provider).open_request);
+  assert(!last || *last <= now);
   if (last && now - *last < protocol::unknown_result_period)
     return;
   for (const auto& service : services_) {
@@ -220,6 +225,7 @@ void requester::complain(const messages::session_id& session, time_point now) {
   if (i == providers_.end())
     return;
   assert(!find(session));
+  trace_.add(step::result_refused, session, now);
   auto& last = i->second.last_complaint;
   if (last && now - *last < protocol::unknown_result_period)
     return;
@@ -235,6 +241,7 @@ void requester::on_first_data(const messages::session_id& session,
   const auto found = find(session);
   if (!found || found.session->at != phase::starting)
     return;
+  trace_.add(step::first_data, session, now);
   auto& service = *found.service;
   auto& started = *found.session;
   assert(started.accepted <= now);
@@ -279,6 +286,7 @@ void requester::on_violation(const messages::qos_violation& violation,
   const auto found = find(session);
   if (!found)
     return;
+  trace_.add(step::violation, session, now, violation.why);
   if (violation.breach != messages::qos_breach::implausible)
     log(messages::event_type::violation, session, violation.why, now);
   auto& service = *found.service;
@@ -295,15 +303,18 @@ void requester::on_violation(const messages::qos_violation& violation,
 void requester::on_end(const messages::service_end& e, time_point now) {
   pass(now);
   if (const auto found = find(e.session);
-      found && e.from == messages::side::provider)
+      found && e.from == messages::side::provider) {
+    trace_.add(step::end_got, e, now);
     end(*found.service, e.session.provider,
         {e.reason, std::string{messages::told_by_provider}}, false, now);
+  }
   assert(e.from != messages::side::provider || !find(e.session));
   assert(is_consistent());
 }
 
 void requester::shut_down(time_point now) {
   pass(now);
+  trace_.add(step::shut_down, 0, setup_.station, now);
   for (auto& service : services_) {
     const auto all = service.sessions;
     for (const auto& session : all)
@@ -371,6 +382,7 @@ void requester::end(service_state& service, provider_id provider,
   service.drop(provider);
   assert(!find(ended.session));
   messages::service_end e{ended.session, reason, messages::side::requester};
+  trace_.add(step::closed, e, now);
   port_.end(e);
   if (tell) {
     e.what = service.service.own->termination_message(e, now, ego_.own);
@@ -441,8 +453,10 @@ void requester::learn_from(const service_state& service,
 
 void requester::send_end(const messages::service_end& e) {
   const auto i = providers_.find(e.session.provider);
-  if (i != providers_.end())
-    port_.send(i->second.peer, e);
+  if (i == providers_.end())
+    return;
+  trace_.add(step::end_sent, e, now_);
+  port_.send(i->second.peer, e);
 }
 
 // -- records ------------------------------------------------------------------

@@ -18,10 +18,6 @@ namespace {
 /// What has been done is recorded so often.
 constexpr duration work_period = std::chrono::seconds{1};
 
-/// A result of another provider need not follow the one in use when that one is
-/// older than so many periods.
-constexpr auto patience_periods = 2;
-
 std::string in_ms(duration d) {
   return fmt::format("{:.1f} ms", 1e3 * to_seconds(d));
 }
@@ -38,8 +34,9 @@ messages::implausibility told(const objection& why) {
 } // namespace
 
 source_selector::source_selector(selector_setup setup, selector_port& port)
-    : setup_{std::move(setup)}, port_{port}, answers_{options().period},
-      work_{setup_.station, setup_.service.name} {
+    : setup_{std::move(setup)}, port_{port},
+      trace_{messages::trace_part::selector, sink_of(setup_.trace, port)},
+      answers_{options().period}, work_{setup_.station, setup_.service.name} {
   assert(setup_.service.own);
   assert(options().period > duration{0});
   assert(options().limits.max_latency > duration{0});
@@ -133,6 +130,7 @@ void source_selector::on_session(const messages::session_id& session,
   pass(now);
   assert(session.is_remote());
   assert(!find(session));
+  trace_.add(step::begun, session, now);
   auto& x = sources_.emplace_back();
   x.session = session;
   x.judge = own().make_judge();
@@ -358,6 +356,7 @@ void source_selector::use(const messages::service_result& result,
   assert(result.session.is_remote() == is_remote());
   assert(!is_remote() || find(result.session)->in_use);
   assert(!is_remote() || broken_limit(result, now).empty());
+  trace_.add(step::used, result.session, now, {}, result.cycle);
   work_.on_board += !result.session.is_remote();
   newest_.in_use = result.what;
   used_from_ = result.session;
@@ -372,84 +371,17 @@ void source_selector::record_work() {
   work_.on_board = work_.inputs = 0;
 }
 
-// -- the standby --------------------------------------------------------------
-
-void source_selector::on_standby(std::optional<messages::standby> chosen,
-                                 time_point now) {
-  pass(now);
-  standby_ = chosen;
-  announce_roles(now);
-  await_cycle_after(began_);
-}
-
-/// A provider that comes to stand by, or no longer does, learns it by an input.
-void source_selector::announce_roles(time_point now) {
-  for (auto& x : sources_)
-    if (x.in_use && x.knows_it_stands_by != is_standby(x))
-      feed(x, now);
-}
-
-/// The cycle after one that began at `start` shall be answered.
-void source_selector::await_cycle_after(time_point start) {
-  began_ = start;
-  ++timer_;
-  if (standby_)
-    port_.wake_at(began_ + options().period + standby_->after, timer_);
-}
-
-/// One more cycle has begun, or should have; more of them if this process has
-/// stood still.
-void source_selector::on_timer(std::uint64_t number, time_point now) {
-  pass(now);
-  assert(number <= timer_);
-  if (number != timer_ || !is_remote())
-    return;
-  assert(standby_);
-  assert(options().period > duration{0});
-  const auto since = now - standby_->after - began_;
-  await_cycle_after(began_ + since / options().period * options().period);
-  if (!answers_.hedge_due(began_, now, standby_->after))
-    return;
-  for (auto& x : sources_)
-    if (x.in_use && is_standby(x) && feed(x, now))
-      ++x.calls_in_vain;
-}
-
-/// One of several that has not been in time for long is of no use, nor is one
-/// that stands by and does not answer.
-void source_selector::give_up_silent(time_point now) {
-  assert(in_use() > 1);
-  for (auto& x : sources_) {
-    assert(x.calls_in_vain >= 0);
-    assert(!x.last_in_time || *x.last_in_time <= now);
-    const auto silent = is_standby(x) ? x.calls_in_vain * options().period
-                                      : now - x.last_in_time.value_or(now);
-    if (!x.in_use || x.given_up || silent <= protocol::start_timeout)
-      continue;
-    x.given_up = true;
-    const auto was_useless =
-        x.useless && now - x.useless_at <= patience_periods * options().period;
-    const auto found = x.useless.value_or(messages::implausibility{});
-    port_.report({x.session,
-                  was_useless ? messages::qos_breach::implausible
-                              : messages::qos_breach::gap,
-                  now, true,
-                  was_useless
-                      ? found.why
-                      : in_words("qos_gap", silent, protocol::start_timeout),
-                  was_useless ? found.check : std::string{}});
-  }
-}
-
 // -- from one source to another -----------------------------------------------
 
 void source_selector::begin(source& x, time_point now) {
   assert(!x.in_use);
   const auto was_remote = is_remote();
   x.in_use = true;
+  trace_.add(step::first_data, x.session, now);
   if (!was_remote) {
     port_.go_remote();
     watch(x.session, now);
+    trace_.add(step::source, x.session, now);
     port_.announce_source(true);
   }
   port_.report_first_data(x.session);
@@ -462,6 +394,7 @@ void source_selector::watch(const messages::session_id& session,
   assert(find(session)->in_use);
   assert(last <= now_);
   watched_ = session;
+  trace_.add(step::watched, session, now_);
   port_.watch(session, last);
 }
 
@@ -470,6 +403,7 @@ void source_selector::on_end(const messages::service_end& end, time_point now) {
   const auto* ended = find(end.session);
   if (!ended)
     return;
+  trace_.add(step::end_got, end, now);
   const auto was_in_use = ended->in_use;
   std::erase_if(sources_,
                 [&](const source& x) { return x.session == end.session; });
@@ -477,10 +411,14 @@ void source_selector::on_end(const messages::service_end& end, time_point now) {
   if (!was_in_use)
     return;
   if (!is_remote()) {
+    trace_.add(step::unwatched, end.session, now);
     port_.watch_end(end);
     if (end.reason == messages::end_reason::implausible)
       newest_.in_use = {}; // the own function does not go on from that
     port_.go_local(newest_);
+    trace_.add(step::source,
+               messages::session_id{0, setup_.station, setup_.service.name, 0},
+               now);
     port_.announce_source(false);
     assert(is_consistent());
     return;

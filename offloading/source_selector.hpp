@@ -7,6 +7,7 @@
 #include "offloading/first_response.hpp"
 #include "offloading/service.hpp"
 #include "offloading/standby.hpp"
+#include "offloading/tracer.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -23,6 +24,7 @@ struct selector_setup {
   station_id station = 0;
   onboard_service service;
   bool record_margins = false; ///< With the cycles, those of used results.
+  bool trace = false;          ///< Record each step.
 };
 
 /// What a selector makes others do. Nothing of this calls the selector back.
@@ -106,6 +108,12 @@ public:
   bool is_remote() const { return in_use() > 0; }
 
 private:
+  using step = messages::trace_step;
+
+  /// A result of another provider need not follow the one in use when that one
+  /// is older than so many periods.
+  static constexpr auto patience_periods = 2;
+
   /// A session at a provider, waited for or in use.
   struct source {
     messages::session_id session;
@@ -165,6 +173,7 @@ private:
 
   selector_setup setup_;
   selector_port& port_;
+  tracer trace_;
   std::vector<source> sources_; // the oldest first
   first_response answers_;      // of cycles, by any of them
   std::optional<messages::standby> standby_;

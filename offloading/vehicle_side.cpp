@@ -99,7 +99,8 @@ private:
     service_parts(parts& owner, const vehicle_side_setup& setup,
                   const onboard_service& service)
         : all{owner}, name{service.name}, selector{{setup.station, service,
-                                                    setup.record_margins},
+                                                    setup.record_margins,
+                                                    setup.trace},
                                                    *this},
           qos{service.options.limits}, own{cycle(setup, service), wants} {}
 

@@ -5,6 +5,7 @@
 #include "messages/protocol/record.hpp"
 #include "recording/metrics.hpp"
 
+#include <string>
 #include <string_view>
 
 namespace sofof::recording {
@@ -48,6 +49,14 @@ struct claim_row {
   decimal at(std::optional<time_point> t) const {
     return t ? seconds(*t - in.start) : decimal{std::nullopt, 9};
   }
+};
+
+struct trace_row {
+  const messages::trace_record& x;
+  time_point start;
+  std::string services; ///< "one#7 two#0"
+
+  trace_row(const messages::trace_record& x, time_point start);
 };
 
 struct disturbed_row {
@@ -180,6 +189,18 @@ inline constexpr csv_column<claim_row> of_claims[]{
     {"enters_s", [](const auto& r) { return r.at(r.x.enters); }},
     {"leaves_s", [](const auto& r) { return r.at(r.x.leaves); }},
     {"kept", [](const auto& r) { return r.x.was_kept; }},
+};
+
+inline constexpr csv_column<trace_row> of_trace[]{
+    {"t_s", [](const auto& r) { return seconds(r.x.at - r.start); }},
+    {"by", [](const auto& r) { return name_of(r.x.by); }},
+    {"step", [](const auto& r) { return r.x.step; }},
+    {"what", [](const auto& r) { return name_of(r.x.what); }},
+    {"provider_id", [](const auto& r) { return r.x.provider.value(); }},
+    {"station", [](const auto& r) { return r.x.station.value(); }},
+    {"number", [](const auto& r) { return r.x.number; }},
+    {"services", [](const auto& r) { return std::string_view{r.services}; }},
+    {"detail", [](const auto& r) { return std::string_view{r.x.detail}; }},
 };
 
 inline constexpr csv_column<disturbed_row> of_disturbed[]{

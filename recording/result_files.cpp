@@ -44,6 +44,8 @@ result_files::result_files(std::filesystem::path folder, const run_info& run)
     tracks_.emplace(folder_ / "tracks.csv", columns::of_tracks);
   if (run.margins)
     margins_.emplace(folder_ / "margins.csv", columns::of_margins);
+  if (run.trace)
+    trace_.emplace(folder_ / "protocol_trace.csv", columns::of_trace);
   if (!run.map_toml.empty())
     write_file(folder_ / "map.toml", run.map_toml);
   for (const auto& [name, text] : run.provider_maps)
@@ -103,6 +105,18 @@ void result_files::write(const messages::air_record& x) {
     pcap_->write(x);
 }
 
+trace_row::trace_row(const messages::trace_record& record, time_point t)
+    : x{record}, start{t} {
+  for (const auto& [name, counter] : record.services)
+    services += fmt::format("{}{}#{}", services.empty() ? "" : " ", name.view(),
+                            counter);
+}
+
+void result_files::write(const messages::trace_record& x) {
+  if (trace_)
+    trace_->write({x, start_});
+}
+
 void result_files::write(std::span<const disturbed_messages> all) {
   for (const auto& x : all)
     disturbed_.write({x});
@@ -119,6 +133,8 @@ void result_files::flush() {
     margins_->flush();
   if (claims_)
     claims_->flush();
+  if (trace_)
+    trace_->flush();
   events_.flush();
   if (pcap_)
     pcap_->flush();
@@ -136,6 +152,8 @@ void result_files::finish(const metrics& all, const run_info& run,
     margins_->close();
   if (claims_)
     claims_->close();
+  if (trace_)
+    trace_->close();
   events_.close();
   if (pcap_)
     pcap_->close();

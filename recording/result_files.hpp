@@ -57,6 +57,7 @@ private:
   void write(const messages::track_record& x);
   void write(const messages::claim_record& x);
   void write(const messages::air_record& x);
+  void write(const messages::trace_record& x);
   template <class Other>
   void write(const Other&) {}
 
@@ -76,6 +77,7 @@ private:
   std::optional<csv_file<track_row>> tracks_;
   std::optional<csv_file<margin_row>> margins_;
   std::optional<csv_file<claim_row>> claims_; // once there is one
+  std::optional<csv_file<trace_row>> trace_;
   csv_file<disturbed_row> disturbed_;
   output_file events_;
 };

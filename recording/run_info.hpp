@@ -66,6 +66,7 @@ struct run_info {
   bool cycles = true;   ///< Write cycles.csv.
   bool tracks = true;   ///< Write tracks.csv.
   bool margins = false; ///< Write margins.csv.
+  bool trace = false;   ///< Write protocol_trace.csv.
   std::string pcap;     ///< Where to capture all ITS messages; empty: nowhere.
   messages::etsi::its_clock time_of_day;
   time_point start; ///< Second 0 of all files.

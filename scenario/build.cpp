@@ -282,6 +282,7 @@ private:
     setup.seed = noise_of(s_, "network");
     setup.number = number;
     setup.virtual_time = virtual_time_;
+    setup.trace = s_.record.trace;
     return actors::spawn_service_provider(sys_, std::move(setup));
   }
 
@@ -379,8 +380,8 @@ private:
             noise = noise_of(s_, "vehicle").part(v.station.value()),
             virtual_time = virtual_time_, computer = s_.fleets[v.fleet].compute,
             host = s_.network.channel->vehicle_host, future = std::move(future),
-            margins =
-                s_.record.margins](const messages::vehicle_actor& vehicle) {
+            margins = s_.record.margins,
+            trace = s_.record.trace](const messages::vehicle_actor& vehicle) {
       const auto path_ahead = [way](const messages::ego_state& ego) {
         return way->waypoints(ego.s_m, protocol::route_ahead_m,
                               protocol::route_spacing_m);
@@ -396,7 +397,8 @@ private:
                                                    .computer = computer,
                                                    .host = host,
                                                    .future = future,
-                                                   .record_margins = margins});
+                                                   .record_margins = margins,
+                                                   .trace = trace});
     };
   }
 

@@ -92,6 +92,7 @@ recording::run_info describe(const scenario_definition& s,
   info.cycles = s.record.cycles;
   info.tracks = s.record.tracks;
   info.margins = s.record.margins;
+  info.trace = s.record.trace;
   return info;
 }
 

@@ -41,6 +41,7 @@ struct record_options {
   bool cycles = true;   ///< Write cycles.csv.
   bool tracks = true;   ///< Write tracks.csv.
   bool margins = false; ///< Write margins.csv.
+  bool trace = false;   ///< Write protocol_trace.csv.
 
   void visit_options(option_visitor& s) {
     using namespace std::chrono_literals;
@@ -50,6 +51,7 @@ struct record_options {
                                 "step.");
     s.field("cycles", cycles);
     s.field("margins", margins);
+    s.field("trace", trace);
     s.field("tracks", tracks);
   }
 };

@@ -36,7 +36,8 @@ rules_of(requester_actor_setup vehicle,
           .computer = vehicle.computer,
           .noise = vehicle.noise,
           .path_ahead = std::move(vehicle.path_ahead),
-          .future = std::move(vehicle.future)};
+          .future = std::move(vehicle.future),
+          .trace = vehicle.trace};
 }
 
 } // namespace sofof::actors

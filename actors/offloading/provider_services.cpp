@@ -87,7 +87,8 @@ offloading::provider_setup rules_of(provider_actor_setup setup,
           .computer = {static_cast<std::size_t>(compute.workers),
                        compute.mean_s(), compute.deviation_s()},
           .map = std::move(setup.map),
-          .noise = setup.seed};
+          .noise = setup.seed,
+          .trace = setup.trace};
 }
 
 } // namespace sofof::actors

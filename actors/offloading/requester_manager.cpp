@@ -24,7 +24,8 @@ struct requester_manager_state {
   void start(requester_manager_setup setup) {
     links.emplace(self, setup);
     selector.emplace(offloading::selector_setup{setup.station, setup.service,
-                                                setup.record_margins},
+                                                setup.record_margins,
+                                                setup.trace},
                      *links);
     links->start(std::move(setup));
   }

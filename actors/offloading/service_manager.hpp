@@ -20,6 +20,7 @@ struct requester_manager_setup {
   messages::onboard_requester_actor requester;
   messages::recorder_actor recorder;
   bool record_margins = false; ///< With the cycles, those of used results.
+  bool trace = false;          ///< Record each step.
 };
 
 /// Owns the local instance and the watchdog, and uses results by the rules of

@@ -34,6 +34,7 @@ struct provider_actor_setup {
   random_stream seed{0, ""};
   std::uint32_t number = 0; ///< Of the provider, for its draws.
   bool virtual_time = true; ///< Model computing times.
+  bool trace = false;       ///< Record each step.
 };
 
 /// Offers and runs services by the rules of offloading/provider. The listener

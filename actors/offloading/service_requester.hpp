@@ -45,6 +45,7 @@ struct requester_actor_setup {
   /// What is to come, where a run can tell; else null.
   std::shared_ptr<const policies::channel_oracle> future{};
   bool record_margins = false; ///< Of results that are used.
+  bool trace = false;          ///< Record each step.
 };
 
 /// Weighs offers, requests services, and owns the states of all services of

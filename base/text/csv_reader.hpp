@@ -53,6 +53,9 @@ public:
   /// @returns this row's text below one of these.
   const std::string& field(std::size_t i) const { return fields_[i]; }
 
+  /// @returns that of this row, from 1 on.
+  std::size_t line() const { return line_; }
+
   /// Says what is wrong with a field of this row.
   [[noreturn]] void refuse(std::size_t column, std::string_view why) const;
 

@@ -5,6 +5,7 @@
 #include "messages/protocol/its_pdu.hpp"
 #include "messages/protocol/motion.hpp"
 #include "messages/protocol/service.hpp"
+#include "messages/protocol/trace.hpp"
 #include "world/vehicle/plan_comfort.hpp"
 #include "world/vehicle/ride_comfort.hpp"
 #include "world/vehicle/trip.hpp"
@@ -166,7 +167,7 @@ using record =
     std::variant<event_record, decision_record, cycle_record, work_record,
                  episode_record, track_record, safety_record, collision_record,
                  drive_record, trip_record, claim_record, plan_switch_record,
-                 air_record>;
+                 air_record, trace_record>;
 
 /// Gets the records of a run; implemented by whoever keeps them.
 class record_sink {

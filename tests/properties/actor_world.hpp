@@ -86,30 +86,38 @@ drive(moving_client::stateful_pointer<moving_client_state> self,
   };
 }
 
-/// Gives episodes to a ledger.
+/// Gives episodes to a ledger, and steps to a diary.
 struct ledger_sink final : messages::record_sink {
   std::shared_ptr<ledger> book;
-  explicit ledger_sink(std::shared_ptr<ledger> x) : book{std::move(x)} {}
-  void on_record(const messages::record& x) override { book->on_record(x); }
+  std::shared_ptr<client_diary> diary;
+  ledger_sink(std::shared_ptr<ledger> x, std::shared_ptr<client_diary> y)
+      : book{std::move(x)}, diary{std::move(y)} {}
+  void on_record(const messages::record& x) override {
+    book->on_record(x);
+    diary->on_record(x);
+  }
 };
 
 struct actor_world : virtual_world {
+  static constexpr std::string_view kind = "actors";
+
   std::uint64_t seed;
   channel::link_fault_options faults;
+  conduct of;
   world::streets_ptr world = one_long_street();
   std::shared_ptr<ledger> book = std::make_shared<ledger>();
-  messages::recorder_actor recorder = own(
-      actors::spawn_recorder(system(), std::make_shared<ledger_sink>(book)));
-  std::shared_ptr<const channel::channel_profile> profile;
   std::shared_ptr<client_diary> diary = std::make_shared<client_diary>();
+  messages::recorder_actor recorder = own(actors::spawn_recorder(
+      system(), std::make_shared<ledger_sink>(book, diary)));
+  std::shared_ptr<const channel::channel_profile> profile;
   std::vector<messages::provider_actor> providers;
   std::vector<messages::link_actor> links;
   moving_client vehicle;
 
   actor_world(std::uint64_t seed, channel::link_fault_options faults,
               int provider_count, std::string_view channel = "paper_5g",
-              const conduct& of = {})
-      : seed{seed}, faults{faults}, profile{of.on(channel)} {
+              const conduct& how = {})
+      : seed{seed}, faults{faults}, of{how}, profile{of.on(channel)} {
     for (int k = 0; k < provider_count; ++k)
       add_provider(k);
     actors::requester_actor_setup setup;
@@ -119,6 +127,7 @@ struct actor_world : virtual_world {
     setup.lodm = of.policy();
     setup.recorder = recorder;
     setup.noise = random_stream{seed, "vehicle"};
+    setup.trace = true;
     vehicle = system().spawn(drive, diary, links, &setup);
     settle();
   }
@@ -133,11 +142,12 @@ struct actor_world : virtual_world {
     setup.area = area_of_provider(k);
     setup.map = {world, &world->map};
     setup.services = {echo_service("one"), echo_service("two")};
-    setup.codm = policies::make_codm("location");
+    setup.codm = of.provider_policy();
     setup.recorder = recorder;
     setup.compute = channel::compute_measured_with(profile->name);
     setup.seed = random_stream{seed, "network"};
     setup.number = static_cast<std::uint32_t>(k);
+    setup.trace = true;
     providers.push_back(
         actors::spawn_service_provider(system(), std::move(setup)));
     const channel::channel_draws draws{profile, random_stream{seed, "network"},

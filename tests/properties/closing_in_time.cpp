@@ -3,9 +3,11 @@
 // through.
 #include "tests/properties/actor_world.hpp"
 #include "tests/properties/library_world.hpp"
+#include "tests/properties/two_at_once.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -22,37 +24,10 @@ using namespace sofof::test;
 
 namespace {
 
-/// Runs every service at the first two providers that there are. The second
-/// one stands by if `hedge_after` is not 0.
-class two_at_once final : public policies::local_policy {
-public:
-  explicit two_at_once(duration hedge_after) : hedge_after_{hedge_after} {}
-
-  policies::local_decision decide(const policies::local_context& c) override {
-    policies::run_at there{c.current.value_or(c.providers.front().id)};
-    for (const auto& x : c.providers)
-      if (x.id != there.provider && !there.second)
-        there.second = {x.id, hedge_after_};
-    return {there, "as long as it goes"};
-  }
-  std::string_view name() const override { return "two_at_once"; }
-  std::unique_ptr<policies::local_policy> clone() const override {
-    return std::make_unique<two_at_once>(*this);
-  }
-
-private:
-  duration hedge_after_;
-};
-
-conduct with_two(duration hedge_after) {
-  return {.policy = [hedge_after] {
-    return std::make_unique<two_at_once>(hedge_after);
-  }};
-}
-
 /// How late sides have been.
 struct lateness {
   int episodes = 0, above_2_s = 0, above_5_s = 0;
+  std::uint64_t steps = 0; // of the protocol, checked against its rules
   duration longest{};
 
   void add(duration late) {
@@ -93,9 +68,11 @@ lateness late_by(double loss, const conduct& of, std::uint64_t seed) {
   lateness late;
   World w{seed, {loss, 0, 0, {}}, 3, "paper_5g", of};
   w.run_and_check(200s);
+  w.dismiss();
+  w.diary->finish();
   for (const auto& text : w.diary->broken)
     FAIL_CHECK(text);
-  w.dismiss();
+  late.steps += w.diary->trace.steps();
   add(*w.book, of, late);
   return late;
 }
@@ -109,14 +86,15 @@ void check_in_time(std::string_view what, double loss, const auto& conduct_of) {
     CAPTURE(seed);
     const auto late = late_by<World>(loss, conduct_of(seed), seed);
     all.episodes += late.episodes;
+    all.steps += late.steps;
     all.above_2_s += late.above_2_s;
     all.above_5_s += late.above_5_s;
     all.longest = std::max(all.longest, late.longest);
   }
-  MESSAGE(what << ", loss " << loss << ": episodes " << all.episodes
-               << ", later than 2 s " << all.above_2_s << ", than 5 s "
-               << all.above_5_s << ", longest " << to_seconds(all.longest)
-               << " s");
+  MESSAGE(what << ", " << World::kind << ", loss " << loss << ": episodes "
+               << all.episodes << ", later than 2 s " << all.above_2_s
+               << ", than 5 s " << all.above_5_s << ", longest "
+               << to_seconds(all.longest) << " s, steps " << all.steps);
   CHECK(all.episodes > 50 * static_cast<int>(seeds()));
   CHECK(all.above_2_s * 1000 <= all.episodes);
   CHECK(all.above_5_s == 0);
@@ -154,15 +132,18 @@ TEST_CASE_TEMPLATE("what one side closed the other one closes soon: a provider "
                    "stands by",
                    World, actor_world, library_world) {
   for (const auto hedge_after : {20ms, 45ms})
-    check_in_time<World>("hedge", 0.1,
-                         [=](std::uint64_t) { return with_two(hedge_after); });
+    check_in_time<World>(
+        fmt::format("standby after {} ms", hedge_after.count()), 0.1,
+        [=](std::uint64_t) { return with_two(hedge_after); });
 }
 
 TEST_CASE_TEMPLATE("what one side closed the other one closes soon after an "
                    "outage",
                    World, actor_world, library_world) {
   for (const auto hedge_after : {0ms, 20ms})
-    check_in_time<World>("outages", 0.1, [=](std::uint64_t seed) {
-      return interrupted(with_two(hedge_after), seed);
-    });
+    check_in_time<World>(
+        fmt::format("outages, standby after {} ms", hedge_after.count()), 0.1,
+        [=](std::uint64_t seed) {
+          return interrupted(with_two(hedge_after), seed);
+        });
 }

@@ -6,11 +6,14 @@
 #include "base/protocol.hpp"
 #include "channel/channel_profile.hpp"
 #include "channel/link_faults.hpp"
+#include "experiments/conformance/trace_checker.hpp"
 #include "messages/protocol/motion.hpp"
 #include "messages/protocol/record.hpp"
 #include "policies/registry.hpp"
 #include "tests/support/toy_streets.hpp"
 #include "world/roads/streets.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
@@ -60,7 +63,7 @@ struct ledger {
 };
 
 /// What one vehicle's client lives through; every promise is checked at every
-/// message.
+/// message, and every step of the protocol against its rules.
 struct client_diary {
   struct entry {
     messages::service_name service;
@@ -71,6 +74,19 @@ struct client_diary {
   };
   std::vector<entry> services;
   std::vector<std::string> broken; // promises
+  experiments::conformance::trace_checker trace{duration{0}};
+
+  void on_record(const messages::record& x) {
+    if (const auto* step = std::get_if<messages::trace_record>(&x))
+      trace.add(*step, {0, trace.steps() + 1});
+  }
+
+  /// Everybody has gone.
+  void finish() {
+    for (const auto& x : trace.finish())
+      broken.push_back(
+          fmt::format("step {}: {}: {}", x.at.line, x.rule, x.what));
+  }
 
   entry& of(const messages::service_name& service) {
     const auto known = std::ranges::find(services, service, &entry::service);
@@ -107,11 +123,32 @@ struct client_diary {
   }
 };
 
-/// What a vehicle and its links are like.
+/// Decides about requests of a fifth of a second together.
+class patient final : public policies::central_policy {
+public:
+  std::vector<policies::central_decision>
+  decide(const policies::central_context& context) override {
+    return inner_->decide(context);
+  }
+  double epoch_s() const override { return 0.2; }
+  std::string_view name() const override { return "patient"; }
+  std::unique_ptr<policies::central_policy> clone() const override {
+    return std::make_unique<patient>();
+  }
+
+private:
+  std::unique_ptr<policies::central_policy> inner_ =
+      policies::make_codm("location");
+};
+
+/// What a vehicle, its links and its providers are like.
 struct conduct {
   std::function<std::unique_ptr<policies::local_policy>()> policy = [] {
     return policies::make_lodm("always");
   };
+  /// Of each provider.
+  std::function<std::unique_ptr<policies::central_policy>()> provider_policy =
+      [] { return policies::make_codm("location"); };
   /// Nothing gets through meanwhile; in order.
   std::vector<channel::outage_options> outages{};
 

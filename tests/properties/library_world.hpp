@@ -181,6 +181,7 @@ private:
 };
 
 struct library_world {
+  static constexpr std::string_view kind = "library";
   static constexpr offloading::peer_id vehicle_peer{1};
   static inline const messages::service_name one{"one"}, two{"two"};
 
@@ -209,11 +210,12 @@ struct library_world {
       setup.area = area_of_provider(static_cast<int>(k));
       for (const auto& name : {one, two})
         setup.services.push_back(at_provider(echo_service(name), {}));
-      setup.policy = policies::make_codm("location");
+      setup.policy = w.of.provider_policy();
       setup.computer = {static_cast<std::size_t>(computers.workers),
                         computers.mean_s(), computers.deviation_s()};
       setup.map = {w.world, &w.world->map};
       setup.noise = random_stream{w.seed, "network"};
+      setup.trace = true;
       side =
           std::make_unique<offloading::provider_side>(std::move(setup), *this);
     }
@@ -242,7 +244,7 @@ struct library_world {
       return workers.finish(start,
                             computers.computing_time(draws_of_results, cycle));
     }
-    void record(messages::record&& x) override { world.book->on_record(x); }
+    void record(messages::record&& x) override { world.keep(x); }
     void wake_at(time_point t, std::uint64_t number_of_timer) override {
       world.time.at<provider_timer>(t, number, number_of_timer);
     }
@@ -274,7 +276,7 @@ struct library_world {
                    bool remote) override {
       world.diary->on_source(service, remote);
     }
-    void record(messages::record&& x) override { world.book->on_record(x); }
+    void record(messages::record&& x) override { world.keep(x); }
     void wake_at(time_point t, std::uint64_t number) override {
       world.time.at<vehicle_timer>(t, number);
     }
@@ -282,6 +284,7 @@ struct library_world {
 
   std::uint64_t seed;
   channel::link_fault_options faults;
+  conduct of;
   std::shared_ptr<const channel::channel_profile> profile;
   world::streets_ptr world = one_long_street();
   agenda<event> time;
@@ -295,8 +298,8 @@ struct library_world {
 
   library_world(std::uint64_t seed, channel::link_fault_options faults,
                 int provider_count, std::string_view channel = "paper_5g",
-                const conduct& of = {})
-      : seed{seed}, faults{faults}, profile{of.on(channel)} {
+                const conduct& how = {})
+      : seed{seed}, faults{faults}, of{how}, profile{of.on(channel)} {
     for (int k = 0; k < provider_count; ++k)
       providers.push_back(
           std::make_unique<provider_node>(*this, static_cast<std::size_t>(k)));
@@ -305,11 +308,17 @@ struct library_world {
     setup.policy = of.policy();
     setup.noise = random_stream{seed, "vehicle"};
     setup.path_ahead = path_ahead;
+    setup.trace = true;
     for (const auto& name : {one, two})
       setup.services.push_back(in_vehicle(echo_service(name), {}));
     side = std::make_unique<offloading::vehicle_side>(std::move(setup), node,
                                                       time.now());
     handle(tick{});
+  }
+
+  void keep(const messages::record& x) {
+    book->on_record(x);
+    diary->on_record(x);
   }
 
   void handle(tick) {
@@ -394,6 +403,8 @@ struct library_world {
     dead.alive = false;
     side->on_lost(dead.peer(), now());
   }
+  /// No connection tells that it is gone.
+  void silence_provider() { providers.front()->alive = false; }
   void crash_vehicle() {
     alive = false;
     for (auto& p : providers)

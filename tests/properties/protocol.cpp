@@ -4,6 +4,7 @@
 
 #include "tests/properties/actor_world.hpp"
 #include "tests/properties/library_world.hpp"
+#include "tests/properties/two_at_once.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>
@@ -34,9 +35,10 @@ void check_ledger(const ledger& book) {
 /// Drives a world through its faults, then dismisses everybody.
 template <class World>
 ledger live(std::uint64_t seed, const link_fault_options& faults,
-            int provider_count, std::optional<duration> crash_at) {
+            int provider_count, std::optional<duration> crash_at,
+            const conduct& of = {}) {
   CAPTURE(seed);
-  World w{seed, faults, provider_count};
+  World w{seed, faults, provider_count, "paper_5g", of};
   if (crash_at) {
     w.run_and_check(*crash_at);
     w.crash_provider();
@@ -45,9 +47,10 @@ ledger live(std::uint64_t seed, const link_fault_options& faults,
     w.run_and_check(200s);
   }
   CHECK(w.diary->services.size() == 2);
+  w.dismiss();
+  w.diary->finish();
   for (const auto& text : w.diary->broken)
     FAIL_CHECK(text);
-  w.dismiss();
   if (!crash_at)
     check_ledger(*w.book);
   for (const auto& [session, times] : w.book->closed_by_requester)
@@ -108,12 +111,55 @@ TEST_CASE_TEMPLATE("whatever a link loses, doubles, delays and reorders: one "
   CHECK(episodes > 500); // faults did not keep everybody local
 }
 
+TEST_CASE_TEMPLATE("whatever a link does: with two providers at once, with one "
+                   "that stands by, and with those that decide once in a while",
+                   World, actor_world, library_world) {
+  dice random{1848};
+  int episodes = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    auto of = with_two(seed % 2 == 0 ? 0ms : 20ms);
+    if (seed % 3 == 0)
+      of.provider_policy = [] { return std::make_unique<patient>(); };
+    const link_fault_options faults{
+        random.between(0, 0.3), random.between(0, 0.3), random.between(0, 0.3),
+        from_seconds(random.between(0.001, 1.0))};
+    episodes += live<World>(seed, faults, 3, std::nullopt, of).remote_episodes;
+  }
+  CHECK(episodes > 300);
+}
+
 TEST_CASE_TEMPLATE("when the provider crashes, its vehicles go on locally at "
                    "once",
                    World, actor_world, library_world) {
   dice random{815};
   for (std::uint64_t seed = 1; seed <= 40; ++seed)
-    live<World>(seed, {}, 1, from_seconds(random.between(5, 60)));
+    live<World>(
+        seed, {}, seed % 2 == 0 ? 1 : 2, from_seconds(random.between(5, 60)),
+        seed % 2 == 0 ? conduct{} : with_two(seed % 4 < 2 ? 0ms : 20ms));
+}
+
+TEST_CASE("when a provider dies and nothing says so, its vehicle has a fresh "
+          "result all the same, and runs nothing there soon after") {
+  dice random{1912};
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    CAPTURE(seed);
+    library_world w{
+        seed, {}, 2, "paper_5g", with_two(seed % 2 == 0 ? 0ms : 20ms)};
+    w.run_and_check(from_seconds(random.between(5, 60)));
+    w.silence_provider();
+    const auto since = w.now();
+    w.run_and_check(20s);
+    for (const auto& [session, left] : w.book->left)
+      CHECK((session.provider != provider_id{1}
+             || left <= since + protocol::confirmation_timeout));
+    w.dismiss();
+    for (const auto& [session, left] : w.book->left)
+      CHECK((session.provider != provider_id{1}
+             || left <= since + protocol::confirmation_timeout));
+    w.diary->finish();
+    for (const auto& text : w.diary->broken)
+      FAIL_CHECK(text);
+  }
 }
 
 TEST_CASE_TEMPLATE("when a vehicle crashes, its provider closes what it ran "
@@ -129,6 +175,10 @@ TEST_CASE_TEMPLATE("when a vehicle crashes, its provider closes what it ran "
     CHECK(w.book->closed_by_provider.size() >= 2);
     for (const auto& [session, times] : w.book->closed_by_provider)
       CHECK(times == 1);
+    w.dismiss();
+    w.diary->finish();
+    for (const auto& text : w.diary->broken)
+      FAIL_CHECK(text);
   }
 }
 

@@ -1,0 +1,44 @@
+// What holds between the parts: nothing is got that was not sent, and what runs
+// here has begun there.
+#pragma once
+
+#include "experiments/conformance/breach.hpp"
+#include "messages/protocol/trace.hpp"
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace sofof::experiments::conformance {
+
+/// Compares the steps of all parts, in any order; of those that have none, none
+/// are missed. Rules: docs/trace.md, M1 ff.
+class message_rules {
+public:
+  explicit message_rules(breach_sink found) : found_{std::move(found)} {}
+
+  void add(const messages::trace_record& x, trace_place at);
+
+  /// There are no more steps.
+  void finish();
+
+private:
+  /// What stands for a message, or a session, on both sides.
+  using name = std::string;
+
+  struct got {
+    trace_place at;
+    bool from_provider = false;
+    provider_id provider = 0;
+    station_id station = 0;
+  };
+
+  breach_sink found_;
+  std::set<name> sent_;
+  std::map<name, got> got_; // for the first time
+  std::set<provider_id> providers_;
+  std::set<station_id> requesters_; // whose steps there are
+};
+
+} // namespace sofof::experiments::conformance

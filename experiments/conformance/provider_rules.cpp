@@ -1,0 +1,267 @@
+// One function for each kind of step.
+#include "experiments/conformance/provider_rules.hpp"
+
+#include "base/protocol.hpp"
+#include "experiments/conformance/names.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace sofof::experiments::conformance {
+
+namespace {
+
+constexpr std::string_view only_heard =
+    "P1 only stations that are heard are spoken to";
+constexpr std::string_view one_answer = "P4 a request is answered once";
+constexpr std::string_view ended_at_once = "P8 what is over is closed at once";
+constexpr std::string_view vehicle_told = "P9 the vehicle is told of an end";
+constexpr std::string_view digests = "P10 digests come on time";
+constexpr std::string_view silent = "P12 who falls silent is forgotten";
+
+constexpr std::string_view inside = "inside";
+
+std::string response_to(const messages::trace_record& x) {
+  return fmt::format("response {} to station {}", x.number, x.station);
+}
+std::string digest_to(station_id station) {
+  return fmt::format("digest to station {}", station);
+}
+std::string forgetting(station_id station) {
+  return fmt::format("forgetting station {}", station);
+}
+
+} // namespace
+
+void provider_rules::refute(std::string_view rule, std::string what) {
+  found_({std::string{rule}, std::move(what), at_});
+}
+
+provider_rules::session* provider_rules::find(station& of, const step& x) {
+  if (x.services.empty())
+    return nullptr;
+  const auto i = of.sessions.find(x.services.front().name);
+  return i != of.sessions.end()
+                 && i->second.counter == x.services.front().counter
+             ? &i->second
+             : nullptr;
+}
+
+void provider_rules::must_close(const step& x, const service& name,
+                                session& what, bool untold) {
+  what.untold = what.untold || untold;
+  duties_.owe(end_of(session_in(x.provider, x.station, {name, what.counter})),
+              x.at, ended_at_once, at_);
+}
+
+void provider_rules::add(const step& x, trace_place at) {
+  using enum messages::trace_step;
+  at_ = at;
+  duties_.pass(x.at);
+  if (x.what == shut_down)
+    return on_shut_down();
+  auto& of = stations_[x.station];
+  switch (x.what) {
+    case heard:
+      return on_heard(of, x);
+    case met:
+      return on_met(of, x);
+    case offer_sent:
+      return on_offer(of, x);
+    case request_got:
+      return on_request(of, x);
+    case response_sent:
+      return on_response(of, x);
+    case begun:
+      return on_begun(of, x);
+    case digest_sent:
+      return on_digest(of, x);
+    case end_sent:
+      return on_end_sent(of, x);
+    case closed:
+      return on_closed(of, x);
+    case forgotten:
+      return on_forgotten(of, x);
+    case end_got:
+    case function_lost:
+      if (auto* known = find(of, x))
+        must_close(x, x.services.front().name, *known, x.what == end_got);
+      return;
+    default:
+      return;
+  }
+}
+
+void provider_rules::on_heard(station& of, const step& x) {
+  if (!of.is_known)
+    of = {};
+  of.is_known = true;
+  of.heard = x.at;
+  duties_.owe(forgetting(x.station), x.at + protocol::cam_timeout + duration{1},
+              silent, at_);
+  const auto is_inside = x.detail == inside;
+  if (is_inside && !of.is_inside)
+    of.may_offer = true;
+  of.is_inside = is_inside;
+  for (auto& [name, s] : of.sessions) {
+    s.was_inside = s.was_inside || is_inside;
+    if (s.was_inside && !is_inside)
+      must_close(x, name, s, false);
+  }
+}
+
+void provider_rules::on_met(station& of, const step& x) {
+  of.may_offer = true;
+  of.last_request = 0;
+  of.open.clear();
+  for (auto& [name, s] : of.sessions)
+    must_close(x, name, s, false);
+}
+
+void provider_rules::on_offer(station& of, const step& x) {
+  if (!of.is_known)
+    refute(only_heard, fmt::format("an offer to station {}", x.station));
+  if (of.offered && x.at - *of.offered + slack_ < protocol::offer_period
+      && !of.may_offer)
+    refute("P2 an offer a second",
+           fmt::format("a second one to station {}", x.station));
+  of.offered = x.at;
+  of.may_offer = false;
+  for (const auto& [name, counter] : x.services)
+    if (of.sessions.contains(name))
+      refute("P3 what runs is not offered",
+             fmt::format("{} to station {}", name.view(), x.station));
+}
+
+// What is asked for is answered in the same instant, or at the end of an epoch.
+void provider_rules::on_request(station& of, const step& x) {
+  if (of.is_known && x.number <= of.last_request)
+    return;
+  of.last_request = of.is_known ? x.number : 0;
+  of.open.clear(); // it has given that up
+  for (const auto& what : x.services)
+    of.open[x.number].insert(what.name);
+}
+
+void provider_rules::on_response(station& of, const step& x) {
+  const auto open = of.open.find(x.number);
+  if (open == of.open.end() && !x.services.empty())
+    refute(one_answer,
+           fmt::format("request {} of station {}", x.number, x.station));
+  for (const auto& what : x.services) {
+    const auto runs = of.sessions.find(what.name);
+    if (what.counter != 0
+        && (runs == of.sessions.end() || runs->second.counter != what.counter))
+      refute("P5 what is accepted runs",
+             session_in(x.provider, x.station, what));
+  }
+  if (open != of.open.end())
+    of.open.erase(open);
+  duties_.settle(response_to(x));
+}
+
+void provider_rules::on_begun(station& of, const step& x) {
+  const auto& [name, counter] = x.services.front();
+  const auto asked = std::ranges::any_of(of.open, [&](const auto& request) {
+    return request.second.contains(name);
+  });
+  if (!of.is_known)
+    refute(only_heard, session_in(x));
+  if (!asked)
+    refute("P6 a session begins with a request", session_in(x));
+  if (counter != last_counter_ + 1)
+    refute("P7 counters rise by one",
+           fmt::format("{} after {}", session_in(x), last_counter_));
+  if (of.sessions.contains(name))
+    refute("P6 a session begins with a request",
+           session_in(x) + ": another one runs");
+  last_counter_ = counter;
+  of.sessions[name] = {.counter = counter,
+                       .was_inside = of.is_inside || x.detail == inside};
+  if (!of.open.empty())
+    duties_.owe(
+        response_to({.station = x.station, .number = of.open.begin()->first}),
+        x.at, "P5 what is accepted runs", at_);
+  if (!of.digest_due)
+    await_digest(of, x);
+}
+
+void provider_rules::await_digest(station& of, const step& x) {
+  of.digest_due = x.at + protocol::digest_period;
+  duties_.owe(digest_to(x.station), *of.digest_due, digests, at_);
+}
+
+void provider_rules::on_digest(station& of, const step& x) {
+  if (!of.digest_due || x.at < *of.digest_due)
+    refute(digests, fmt::format("one to station {} too early", x.station));
+  if (x.number != last_counter_)
+    refute(
+        "P11 a digest says what runs",
+        fmt::format("its last counter is {}, not {}", x.number, last_counter_));
+  auto named = of.sessions.size() == x.services.size();
+  for (const auto& what : x.services) {
+    const auto runs = of.sessions.find(what.name);
+    named = named && runs != of.sessions.end()
+            && runs->second.counter == what.counter;
+  }
+  if (!named)
+    refute("P11 a digest says what runs",
+           fmt::format("it names {} sessions of station {}, where {} run",
+                       x.services.size(), x.station, of.sessions.size()));
+  of.digest_due.reset();
+  duties_.settle(digest_to(x.station));
+  if (!of.sessions.empty() || x.at < of.told_until)
+    await_digest(of, x);
+}
+
+void provider_rules::on_end_sent(station& of, const step& x) {
+  if (find(of, x))
+    refute("P13 what runs is closed before its vehicle is told", session_in(x));
+  duties_.settle(end_to(session_in(x)));
+}
+
+void provider_rules::on_closed(station& of, const step& x) {
+  const auto* known = find(of, x);
+  if (!known) {
+    refute("P14 a session is closed once", session_in(x));
+    return;
+  }
+  if (!known->untold)
+    duties_.owe(end_to(session_in(x)), x.at, vehicle_told, at_);
+  if (x.detail == "left_area" && of.is_inside)
+    refute("P15 who is inside has not left the area", session_in(x));
+  of.sessions.erase(x.services.front().name);
+  of.told_until = x.at + protocol::digest_goes_on;
+  duties_.settle(end_of(session_in(x)));
+}
+
+void provider_rules::on_forgotten(station& of, const step& x) {
+  if (x.detail == "cam_timeout" && x.at - of.heard <= protocol::cam_timeout)
+    refute(silent, fmt::format("station {} was heard {:.3f} s before",
+                               x.station, to_seconds(x.at - of.heard)));
+  duties_.settle(forgetting(x.station));
+  duties_.settle(digest_to(x.station));
+  of.is_known = false;
+  of.digest_due.reset();
+  of.open.clear();
+  for (auto& [name, s] : of.sessions)
+    must_close(x, name, s, false);
+}
+
+void provider_rules::on_shut_down() {
+  duties_.drop_all();
+  has_ended_ = true;
+}
+
+void provider_rules::finish() {
+  if (!has_ended_)
+    return;
+  duties_.pass(time_point::max());
+  for (const auto& [id, of] : stations_)
+    for (const auto& [name, s] : of.sessions)
+      refute(ended_at_once, fmt::format("{}#{} of station {} at the end",
+                                        name.view(), s.counter, id));
+}
+
+} // namespace sofof::experiments::conformance

@@ -1,0 +1,305 @@
+// One function for each kind of step.
+#include "experiments/conformance/requester_rules.hpp"
+
+#include "base/protocol.hpp"
+#include "experiments/conformance/names.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace sofof::experiments::conformance {
+
+namespace {
+
+constexpr std::string_view answered = "V4 a request ends in time";
+constexpr std::string_view data_in_time = "V7 first data come in time";
+constexpr std::string_view closed_at_once = "V8 what is over is closed at once";
+constexpr std::string_view provider_told = "V9 the provider is told of an end";
+constexpr std::string_view late_answer = "V6 a late acceptance is ended";
+constexpr std::string_view unknown_result =
+    "V10 results of no session are answered";
+constexpr std::string_view unknown_named =
+    "V11 what only a digest has is ended";
+
+std::string request_of(provider_id id) {
+  return fmt::format("the answer of provider {}", id);
+}
+std::string data_of(const std::string& session) {
+  return "first data, or the end, of " + session;
+}
+
+} // namespace
+
+void requester_rules::refute(std::string_view rule, std::string what) {
+  found_({std::string{rule}, std::move(what), at_});
+}
+
+requester_rules::session* requester_rules::find(const step& x) {
+  const auto from = providers_.find(x.provider);
+  if (from == providers_.end() || x.services.empty())
+    return nullptr;
+  const auto i = from->second.sessions.find(x.services.front().name);
+  return i != from->second.sessions.end()
+                 && i->second.counter == x.services.front().counter
+             ? &i->second
+             : nullptr;
+}
+
+void requester_rules::must_close(const step& x, bool untold) {
+  auto* known = find(x);
+  if (!known)
+    return;
+  known->untold = known->untold || untold;
+  duties_.owe(end_of(session_in(x)), x.at, closed_at_once, at_);
+}
+
+void requester_rules::must_end(const step& x,
+                               const messages::traced_service& what,
+                               std::string_view rule) {
+  duties_.owe(end_to(session_in(x.provider, x.station, what)), x.at, rule, at_);
+}
+
+void requester_rules::add(const step& x, trace_place at) {
+  using enum messages::trace_step;
+  at_ = at;
+  duties_.pass(x.at);
+  switch (x.what) {
+    case offer_got:
+      return on_offer(x);
+    case request_sent:
+      return on_request(x);
+    case request_over:
+      return on_request_over(x);
+    case response_got:
+      return on_response(x);
+    case begun:
+      return on_begun(x);
+    case first_data:
+      return on_first_data(x);
+    case digest_got:
+      return on_digest(x);
+    case result_refused:
+      return on_unknown_result(x);
+    case violation:
+      return must_close(x, false);
+    case end_got:
+      return must_close(x, true);
+    case end_sent:
+      return on_end_sent(x);
+    case closed:
+      return on_closed(x);
+    case peer_lost:
+      return on_lost(x);
+    case shut_down:
+      return on_shut_down(x);
+    default:
+      return;
+  }
+}
+
+void requester_rules::on_offer(const step& x) {
+  auto& from = providers_[x.provider];
+  from.offered.clear();
+  for (const auto& s : x.services)
+    from.offered[s.name] = x.at;
+}
+
+void requester_rules::on_request(const step& x) {
+  auto& to = providers_[x.provider];
+  if (x.number != last_request_ + 1)
+    refute("V1 request numbers rise by one",
+           fmt::format("{} after {}", x.number, last_request_));
+  last_request_ = x.number;
+  if (to.open_request)
+    refute("V2 one request to a provider at a time",
+           fmt::format("{} while {} is open", x.number, *to.open_request));
+  for (const auto& [name, counter] : x.services) {
+    const auto offer = to.offered.find(name);
+    if (offer == to.offered.end()
+        || x.at - offer->second > protocol::offer_validity)
+      refute("V3 only what is offered is asked for",
+             fmt::format("{} of provider {}", name.view(), x.provider));
+    if (to.sessions.contains(name))
+      refute("V3 only what is offered is asked for",
+             fmt::format("{} runs at provider {}", name.view(), x.provider));
+    const auto cools = to.cools_until.find(name);
+    if (cools != to.cools_until.end() && x.at + slack_ < cools->second)
+      refute("V5 nobody is asked within its cool-down",
+             fmt::format("{} of provider {}", name.view(), x.provider));
+    to.offered.erase(name);
+    to.requested.insert(name);
+    own_.insert(name);
+  }
+  to.open_request = x.number;
+  to.asked = x.at;
+  duties_.owe(request_of(x.provider), x.at + protocol::request_timeout,
+              answered, at_);
+}
+
+void requester_rules::on_request_over(const step& x) {
+  auto& from = providers_[x.provider];
+  if (from.open_request != x.number)
+    refute(answered, fmt::format("request {} was not open", x.number));
+  else if (x.at < from.asked + protocol::request_timeout)
+    refute(answered, fmt::format("request {} was given up early", x.number));
+  from.open_request.reset();
+  from.requested.clear();
+  duties_.settle(request_of(x.provider));
+}
+
+void requester_rules::on_response(const step& x) {
+  const auto known = providers_.find(x.provider);
+  if (known == providers_.end())
+    return; // it cannot be told anything
+  auto& from = known->second;
+  from.accepted.clear();
+  if (from.open_request != x.number) {
+    for (const auto& what : x.services) {
+      const auto runs = from.sessions.find(what.name);
+      if (what.counter != 0
+          && (runs == from.sessions.end()
+              || runs->second.counter != what.counter)) // no mere duplicate
+        must_end(x, what, late_answer);
+    }
+    return;
+  }
+  from.open_request.reset();
+  duties_.settle(request_of(x.provider));
+  for (const auto& what : x.services)
+    if (what.counter != 0 && from.requested.contains(what.name))
+      from.accepted.try_emplace(what.name, what.counter);
+  from.requested.clear();
+}
+
+void requester_rules::on_begun(const step& x) {
+  auto& at = providers_[x.provider];
+  const auto& [name, counter] = x.services.front();
+  const auto accepted = at.accepted.find(name);
+  if (accepted == at.accepted.end() || accepted->second != counter)
+    refute("V12 a session begins with an acceptance", session_in(x));
+  if (counter <= at.last_counter)
+    refute("V13 counters of a provider rise",
+           fmt::format("{} after {}", session_in(x), at.last_counter));
+  if (at.sessions.contains(name))
+    refute("V12 a session begins with an acceptance",
+           session_in(x) + ": another one was not closed");
+  at.last_counter = counter;
+  at.sessions[name] = {.counter = counter};
+  duties_.owe(data_of(session_in(x)), x.at + protocol::start_timeout,
+              data_in_time, at_);
+}
+
+void requester_rules::on_first_data(const step& x) {
+  auto* known = find(x);
+  if (!known || known->is_remote)
+    refute("V14 first data come once, of a session that has begun",
+           session_in(x));
+  else
+    known->is_remote = true;
+  duties_.settle(data_of(session_in(x)));
+}
+
+void requester_rules::on_digest(const step& x) {
+  auto& from = providers_[x.provider];
+  judge_unnamed(from, x);
+  if (from.open_request
+      || (from.corrected
+          && x.at - *from.corrected < protocol::unknown_result_period))
+    return;
+  for (const auto& name : own_) {
+    const auto named =
+        std::ranges::find(x.services, name, &messages::traced_service::name);
+    if (named == x.services.end())
+      continue;
+    const auto known = from.sessions.find(name);
+    if (known != from.sessions.end() && known->second.counter == named->counter)
+      continue;
+    must_end(x, *named, unknown_named);
+    from.corrected = x.at;
+  }
+}
+
+// A session that two digests do not name is over.
+void requester_rules::judge_unnamed(provider& from, const step& x) {
+  for (auto& [name, s] : from.sessions) {
+    if (s.counter > x.number)
+      continue;
+    const messages::traced_service what{name, s.counter};
+    if (std::ranges::count(x.services, what) > 0) {
+      s.unnamed_since.reset();
+    } else if (!s.unnamed_since) {
+      s.unnamed_since = x.at;
+    } else if (x.at - *s.unnamed_since >= protocol::digest_period / 2) {
+      s.untold = true;
+      duties_.owe(end_of(session_in(x.provider, x.station, what)), x.at,
+                  closed_at_once, at_);
+    }
+  }
+}
+
+void requester_rules::on_unknown_result(const step& x) {
+  const auto from = providers_.find(x.provider);
+  if (find(x))
+    refute("V15 results of a session are not refused", session_in(x));
+  if (from == providers_.end())
+    return;
+  auto& last = from->second.complained;
+  if (last && x.at - *last < protocol::unknown_result_period)
+    return;
+  last = x.at;
+  must_end(x, x.services.front(), unknown_result);
+}
+
+void requester_rules::on_end_sent(const step& x) {
+  if (find(x))
+    refute("V16 what runs is closed before its provider is told",
+           session_in(x));
+  duties_.settle(end_to(session_in(x)));
+}
+
+void requester_rules::on_closed(const step& x) {
+  auto* known = find(x);
+  if (!known) {
+    refute("V17 a session is closed once", session_in(x));
+    return;
+  }
+  if (!known->untold)
+    must_end(x, x.services.front(), provider_told);
+  auto& from = providers_[x.provider];
+  from.sessions.erase(x.services.front().name);
+  duties_.settle(end_of(session_in(x)));
+  duties_.settle(data_of(session_in(x)));
+  if (!is_planned(x.detail))
+    from.cools_until[x.services.front().name] = x.at + protocol::cool_down;
+}
+
+void requester_rules::on_lost(const step& x) {
+  auto& lost = providers_[x.provider];
+  lost.open_request.reset();
+  lost.requested.clear();
+  lost.offered.clear();
+  duties_.settle(request_of(x.provider));
+  for (auto& [name, s] : lost.sessions) {
+    s.untold = true;
+    duties_.owe(end_of(session_in(x.provider, x.station, {name, s.counter})),
+                x.at, closed_at_once, at_);
+  }
+}
+
+void requester_rules::on_shut_down(const step& x) {
+  duties_.drop_all();
+  has_ended_ = true;
+  for (const auto& [id, from] : providers_)
+    for (const auto& [name, s] : from.sessions)
+      duties_.owe(end_of(session_in(id, x.station, {name, s.counter})), x.at,
+                  closed_at_once, at_);
+}
+
+void requester_rules::finish() {
+  if (has_ended_)
+    duties_.pass(time_point::max());
+}
+
+} // namespace sofof::experiments::conformance

@@ -1,0 +1,377 @@
+// Tests of the checker of traces: which steps it lets pass, and which rule it
+// finds broken.
+#include "experiments/conformance/trace_checker.hpp"
+
+#include <doctest/doctest.h>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace sofof;
+using namespace sofof::messages;
+using namespace sofof::experiments::conformance;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr provider_id server = 3;
+constexpr station_id car = 101;
+const std::vector<traced_service> none{};
+const std::vector<traced_service> plan{{"plan", 0}};
+const std::vector<traced_service> session{{"plan", 7}};
+const std::vector<traced_service> first{{"plan", 1}};
+
+/// A trace that is written step by step.
+struct traced {
+  trace_checker checker{duration{0}};
+  time_point now{1s};
+  std::map<trace_part, std::uint64_t> last;
+
+  void pass(duration d) { now += d; }
+
+  traced& add(trace_part by, trace_step what,
+              std::vector<traced_service> services = session,
+              std::string detail = {}, std::uint64_t number = 1) {
+    checker.add({.at = now,
+                 .by = by,
+                 .step = ++last[by],
+                 .what = what,
+                 .provider = server,
+                 .station = car,
+                 .number = number,
+                 .services = std::move(services),
+                 .detail = std::move(detail)},
+                {0, checker.steps() + 1});
+    return *this;
+  }
+  traced& vehicle(trace_step what,
+                  std::vector<traced_service> services = session,
+                  std::string detail = {}, std::uint64_t number = 1) {
+    return add(trace_part::requester, what, std::move(services),
+               std::move(detail), number);
+  }
+  traced& provider(trace_step what,
+                   std::vector<traced_service> services = first,
+                   std::string detail = {}, std::uint64_t number = 1) {
+    return add(trace_part::provider, what, std::move(services),
+               std::move(detail), number);
+  }
+  traced& selector(trace_step what,
+                   std::vector<traced_service> services = session,
+                   std::uint64_t number = 1) {
+    return add(trace_part::selector, what, std::move(services), {}, number);
+  }
+
+  /// @returns the names of the rules that were broken ("V9").
+  std::vector<std::string> broken() {
+    std::vector<std::string> all;
+    for (const auto& x : checker.finish())
+      all.push_back(x.rule.substr(0, x.rule.find(' ')));
+    return all;
+  }
+};
+
+using rules = std::vector<std::string>;
+
+/// The vehicle's session 7 has begun.
+struct running_vehicle : traced {
+  running_vehicle() {
+    vehicle(trace_step::offer_got, plan);
+    vehicle(trace_step::request_sent, plan);
+    pass(20ms);
+    vehicle(trace_step::response_got, session);
+    vehicle(trace_step::begun);
+    pass(50ms);
+  }
+};
+
+/// The provider's session 1 has begun.
+struct running_provider : traced {
+  running_provider() {
+    provider(trace_step::heard, none, "inside");
+    provider(trace_step::met, none);
+    provider(trace_step::offer_sent, plan);
+    provider(trace_step::request_got, plan);
+    provider(trace_step::begun, first, "inside");
+    provider(trace_step::response_sent);
+  }
+};
+
+/// Results of session 7 are in use.
+struct running_selector : traced {
+  running_selector() {
+    selector(trace_step::used, plan);
+    selector(trace_step::begun);
+    pass(100ms);
+    selector(trace_step::first_data);
+    selector(trace_step::watched);
+    selector(trace_step::source);
+    selector(trace_step::used);
+    pass(100ms);
+  }
+};
+
+} // namespace
+
+// -- the requester ------------------------------------------------------------
+
+TEST_CASE_FIXTURE(running_vehicle, "a session that is offered, asked for, "
+                                   "accepted, used and closed breaks no rule") {
+  vehicle(trace_step::first_data);
+  pass(10s);
+  vehicle(trace_step::violation);
+  vehicle(trace_step::closed, session, "qos_gap");
+  vehicle(trace_step::end_sent, session, "qos_gap");
+  pass(1s);
+  vehicle(trace_step::offer_got, plan);
+  vehicle(trace_step::request_sent, plan, {}, 2);
+  CHECK(broken().empty());
+}
+
+TEST_CASE_FIXTURE(running_vehicle, "who closes a session tells the provider") {
+  vehicle(trace_step::first_data);
+  vehicle(trace_step::closed, session, "released");
+  pass(1ms);
+  vehicle(trace_step::offer_got, plan);
+  CHECK(broken() == rules{"V9"});
+}
+
+TEST_CASE_FIXTURE(running_vehicle, "who has heard of an end tells nobody") {
+  vehicle(trace_step::end_got, session, "left_area");
+  vehicle(trace_step::closed, session, "left_area");
+  pass(1ms);
+  vehicle(trace_step::offer_got, plan);
+  CHECK(broken().empty());
+}
+
+TEST_CASE_FIXTURE(running_vehicle, "a violation closes its session at once") {
+  vehicle(trace_step::first_data);
+  vehicle(trace_step::violation);
+  pass(1ms);
+  vehicle(trace_step::closed, session, "qos_gap");
+  vehicle(trace_step::end_sent, session, "qos_gap");
+  CHECK(broken() == rules{"V8"});
+}
+
+TEST_CASE_FIXTURE(running_vehicle, "a session without data is closed after a "
+                                   "second") {
+  pass(951ms);
+  vehicle(trace_step::offer_got, plan);
+  CHECK(broken() == rules{"V7"});
+}
+
+TEST_CASE("nobody is asked within its cool-down, which is only after a fault") {
+  const auto ask_soon_after = [](const char* reason) {
+    running_vehicle x;
+    x.vehicle(trace_step::end_got, session, reason);
+    x.vehicle(trace_step::closed, session, reason);
+    x.pass(999ms);
+    x.vehicle(trace_step::offer_got, plan);
+    x.vehicle(trace_step::request_sent, plan, {}, 2);
+    return x.broken();
+  };
+  CHECK(ask_soon_after("left_area").empty());
+  CHECK(ask_soon_after("qos_gap") == rules{"V5"});
+}
+
+TEST_CASE_FIXTURE(traced, "what is not offered is not asked for") {
+  vehicle(trace_step::request_sent, plan);
+  CHECK(broken() == rules{"V3"});
+}
+
+TEST_CASE_FIXTURE(traced, "an offer that is too old is none") {
+  vehicle(trace_step::offer_got, plan);
+  pass(2501ms);
+  vehicle(trace_step::request_sent, plan);
+  CHECK(broken() == rules{"V3"});
+}
+
+TEST_CASE_FIXTURE(traced, "a request is over after half a second") {
+  vehicle(trace_step::offer_got, plan);
+  vehicle(trace_step::request_sent, plan);
+  pass(500ms);
+  vehicle(trace_step::request_over, none);
+  vehicle(trace_step::offer_got, plan);
+  vehicle(trace_step::request_sent, plan, {}, 2);
+  pass(501ms);
+  vehicle(trace_step::offer_got, plan);
+  CHECK(broken() == rules{"V4"});
+}
+
+TEST_CASE_FIXTURE(traced, "a late acceptance is ended") {
+  vehicle(trace_step::offer_got, plan);
+  vehicle(trace_step::request_sent, plan);
+  pass(500ms);
+  vehicle(trace_step::request_over, none);
+  vehicle(trace_step::response_got, session);
+  pass(1ms);
+  vehicle(trace_step::offer_got, plan);
+  CHECK(broken() == rules{"V6"});
+}
+
+TEST_CASE_FIXTURE(running_vehicle, "two digests that do not name a session end "
+                                   "it, and a copy of the first one does not") {
+  vehicle(trace_step::first_data);
+  vehicle(trace_step::digest_got, none, {}, 7);
+  pass(20ms);
+  vehicle(trace_step::digest_got, none, {}, 7);
+  pass(480ms);
+  CHECK(checker.finish().empty());
+  vehicle(trace_step::digest_got, none, {}, 7);
+  pass(1ms);
+  vehicle(trace_step::offer_got, plan);
+  CHECK(broken() == rules{"V8"});
+}
+
+TEST_CASE_FIXTURE(running_vehicle, "a digest that is older than a session says "
+                                   "nothing of it") {
+  vehicle(trace_step::first_data);
+  for (int k = 0; k < 3; ++k) {
+    pass(500ms);
+    vehicle(trace_step::digest_got, none, {}, 6);
+  }
+  CHECK(broken().empty());
+}
+
+TEST_CASE_FIXTURE(traced, "a session begins with an acceptance") {
+  vehicle(trace_step::begun);
+  CHECK(broken() == rules{"V12"});
+}
+
+// -- the provider -------------------------------------------------------------
+
+TEST_CASE_FIXTURE(running_provider, "a provider that tells of what runs, ends "
+                                    "it and goes on telling breaks no rule") {
+  pass(500ms);
+  provider(trace_step::digest_sent);
+  pass(200ms);
+  provider(trace_step::heard, none, "outside");
+  provider(trace_step::closed, first, "left_area");
+  provider(trace_step::end_sent, first, "left_area");
+  for (int k = 0; k < 5; ++k) {
+    pass(k == 0 ? 300ms : 500ms);
+    provider(trace_step::digest_sent, none);
+    provider(trace_step::heard, none, "outside");
+  }
+  pass(2s + 1ns);
+  provider(trace_step::forgotten, none, "cam_timeout");
+  provider(trace_step::shut_down, none);
+  CHECK(broken().empty());
+}
+
+TEST_CASE_FIXTURE(running_provider, "a digest that does not come is missed") {
+  pass(501ms);
+  provider(trace_step::heard, none, "inside");
+  CHECK(broken() == rules{"P10"});
+}
+
+TEST_CASE_FIXTURE(running_provider, "a digest names what runs") {
+  pass(500ms);
+  provider(trace_step::digest_sent, none);
+  CHECK(broken() == rules{"P11"});
+}
+
+TEST_CASE_FIXTURE(running_provider, "who is outside loses what runs") {
+  provider(trace_step::heard, none, "outside");
+  pass(1ms);
+  provider(trace_step::heard, none, "outside");
+  CHECK(broken().front() == "P8");
+}
+
+TEST_CASE_FIXTURE(running_provider, "who is silent for two seconds is "
+                                    "forgotten") {
+  for (int k = 0; k < 5; ++k) {
+    pass(500ms);
+    provider(trace_step::digest_sent);
+  }
+  CHECK(broken() == rules{"P12"});
+}
+
+TEST_CASE_FIXTURE(running_provider, "a request is answered once, and a "
+                                    "repeated one not at all") {
+  provider(trace_step::request_got, plan);
+  provider(trace_step::response_sent);
+  CHECK(broken() == rules{"P4"});
+}
+
+TEST_CASE_FIXTURE(running_provider, "what runs is not offered") {
+  pass(1s);
+  provider(trace_step::offer_sent, plan);
+  CHECK(broken() == rules{"P10", "P3"});
+}
+
+TEST_CASE_FIXTURE(running_provider, "nothing runs when a provider has ended in "
+                                    "good order") {
+  provider(trace_step::shut_down, none);
+  CHECK(broken() == rules{"P8"});
+}
+
+// -- the selector -------------------------------------------------------------
+
+TEST_CASE_FIXTURE(running_selector, "the own function goes on at once when the "
+                                    "last session ends") {
+  selector(trace_step::end_got);
+  selector(trace_step::unwatched);
+  selector(trace_step::source, plan);
+  selector(trace_step::used, plan);
+  CHECK(broken().empty());
+}
+
+TEST_CASE_FIXTURE(running_selector, "results come from one source") {
+  selector(trace_step::used, plan, 2);
+  CHECK(broken() == rules{"S1"});
+}
+
+TEST_CASE_FIXTURE(running_selector, "a source that is late is found") {
+  selector(trace_step::end_got);
+  selector(trace_step::unwatched);
+  pass(1ms);
+  selector(trace_step::source, plan);
+  CHECK(broken() == rules{"S2"});
+}
+
+TEST_CASE_FIXTURE(running_selector, "an ended session's result is not used") {
+  selector(trace_step::end_got);
+  selector(trace_step::unwatched);
+  selector(trace_step::source, plan);
+  selector(trace_step::used, session, 2);
+  CHECK(broken() == rules{"S1", "S4"});
+}
+
+TEST_CASE_FIXTURE(running_selector, "results are used in order") {
+  selector(trace_step::used, session, 1);
+  CHECK(broken() == rules{"S6"});
+}
+
+TEST_CASE_FIXTURE(traced, "a remote source that nobody watches is found") {
+  selector(trace_step::begun);
+  selector(trace_step::first_data);
+  selector(trace_step::source);
+  selector(trace_step::used);
+  CHECK(broken() == rules{"S3"});
+}
+
+// -- between the parts --------------------------------------------------------
+
+TEST_CASE_FIXTURE(traced, "what is got has been sent") {
+  provider(trace_step::heard, none, "inside");
+  provider(trace_step::offer_sent, plan);
+  vehicle(trace_step::offer_got, plan);
+  vehicle(trace_step::offer_got, plan); // a copy
+  CHECK(checker.finish().empty());
+  vehicle(trace_step::offer_got, first); // of other content
+  CHECK(broken() == rules{"M1"});
+}
+
+TEST_CASE_FIXTURE(running_vehicle, "of a provider without a trace nothing is "
+                                   "missed") {
+  CHECK(broken().empty());
+}
+
+TEST_CASE_FIXTURE(running_vehicle, "a step that is missing is found") {
+  ++last[trace_part::requester];
+  vehicle(trace_step::first_data);
+  CHECK(broken() == rules{"M2"});
+}
