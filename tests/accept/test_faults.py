@@ -104,6 +104,16 @@ class Faults(unittest.TestCase):
         self.assertEqual(found["car.max"], "30.0")
         self.assertEqual(found["ours_s"], "0.00")
 
+    def test_a_revoked_peer_that_goes_on_is_never_out(self):
+        self.story.fault["kind"] = "revoke_edge"
+        self.story.own_at = None
+        self.assertEqual(self.story.figures()["revoked.max"], "inf")
+
+    def test_an_own_plan_counts_from_the_cut_of_the_way_up(self):
+        self.story.fault.update(kind="cut_up", begin=4.6, mended=5.5)
+        found = self.story.figures()
+        self.assertEqual((found["up.stopped"], found["up.max"]), (1, "430.0"))
+
     def test_an_old_plan_is_found(self):
         self.story.tracks[300:305] = [
             (t, 210.0) for t, _ in self.story.tracks[300:305]]

@@ -125,6 +125,10 @@ class Drive:
         return next((t for t, age in self.tracks[station]
                      if t > until and t - age >= until - 0.01), float("inf"))
 
+    def stations_planned_for(self, at):
+        return [station for station, times in self.planned_for.items()
+                if any(begin <= at < end for begin, end in times)]
+
     def again_after(self, station, since):
         """When it was planned for again; infinity if never."""
         return next((begin for begin, _ in self.planned_for[station]

@@ -27,6 +27,17 @@ def wait_until(holds, seconds=PATIENCE_S):
     return False
 
 
+def begin_first(command, output):
+    """Starts a process that comes before others on its cores, by its own nice
+    value and by that of its session, which Linux may schedule as a group: what
+    else this machine does is no fault of hosts, which have theirs to themselves.
+    """
+    return subprocess.Popen(
+        ["sh", "-c", "echo -20 2>/dev/null >/proc/self/autogroup || true; "
+         'exec nice -n -20 "$@"', "sh", *map(str, command)],
+        stdout=output, stderr=output, start_new_session=True)
+
+
 class Host:
     """@param space    Its network namespace.
     @param command  What to run, without the results folder.
@@ -51,10 +62,9 @@ class Host:
                     "FAKETIME_CACHE_DURATION=1",
                     "FAKETIME_DONT_FAKE_MONOTONIC=1"] if self._clock else []
         with open(self.log, "wb") as log:
-            self._process = subprocess.Popen(
+            self._process = begin_first(
                 ["ip", "netns", "exec", self._space, *changing,
-                 *map(str, self._command), "--out", str(self.out)],
-                stdout=log, stderr=log, start_new_session=True)
+                 *map(str, self._command), "--out", str(self.out)], log)
 
     @property
     def log(self):
