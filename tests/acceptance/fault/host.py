@@ -48,6 +48,7 @@ class Host:
         self.name, self.disk = name, disk
         self._folder, self._space, self._command = folder, space, command
         self._clock, self._starts, self._process = clock, 0, None
+        self.deaths = {}  # of runs that ended on their own: exit codes
 
     # -- the process ------------------------------------------------------------
 
@@ -79,6 +80,8 @@ class Host:
 
     def end(self, number=signal.SIGTERM):
         """@returns its exit code, once its results lie beside its log."""
+        if not self.is_running:
+            self.deaths[self.run] = self._process.returncode
         self.send(number)
         self.send(signal.SIGCONT)
         try:
