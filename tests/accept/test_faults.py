@@ -93,6 +93,7 @@ class Faults(unittest.TestCase):
         found = self.story.figures()
         self.assertEqual((found["stopped"], found["stalled.stopped"]), (0, 1))
         self.assertEqual(found["stalled.back.max"], "450.0")
+        self.assertEqual(found["stalled.ours"], "150.0")
 
     def test_a_stopped_car_counts_from_its_continuation(self):
         self.story.fault.update(kind="stop_car", begin=5.0, mended=6.0)
