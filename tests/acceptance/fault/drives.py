@@ -32,8 +32,14 @@ class Silence:
         self.station, self.begin, self.end = station, begin, end
         self.is_way_back = is_way_back
 
-    def length_ms(self, counts_from=float("-inf")):
-        return 1e3 * (self.end - max(self.begin, min(counts_from, self.end)))
+    def length_ms(self, stops=()):
+        """@param stops  When the car was stopped: (begin, continuation)s. It
+        counts from its continuation."""
+        return 1e3 * (self.end - self.counts_from(stops))
+
+    def counts_from(self, stops):
+        return max([self.begin, *(on for begin, on in stops
+                                  if begin < self.end and on < self.end)])
 
 
 class Drive:
