@@ -123,7 +123,8 @@ class Keys:
     """A certification authority, and the folders of keys of two hosts."""
 
     def __init__(self, program, folder, stations):
-        self._program, self._folder, self._count = str(program), folder, 0
+        self._program, self._folder = str(program), folder
+        self._count, self._authorities = 0, []
         self.stations = stations
         self.edge, self.car = folder / "edge", folder / "car"
         self._ca = self._new_ca()
@@ -141,6 +142,7 @@ class Keys:
         self._count += 1
         ca = self._folder / f"ca_{self._count}"
         self._sofof("init", ca)
+        self._authorities.append(ca)
         return ca
 
     def renew(self, host):
@@ -161,8 +163,11 @@ class Keys:
     def revoke(self, host, told):
         """Takes a host's certificates back, and lets the other one know."""
         names = next(names for names, its in self._hosts() if its == host)
-        self._sofof("revoke", self._ca, *names)
-        shutil.copy(self._ca / "revoked", told / "revoked")
+        # Of earlier CAs, too: connections that are open go on with theirs.
+        for ca in self._authorities:
+            self._sofof("revoke", ca, *names)
+        (told / "revoked").write_text("".join(
+            (ca / "revoked").read_text() for ca in self._authorities))
 
     def break_certificate(self, host):
         """@returns how to mend it."""
