@@ -32,14 +32,20 @@ class Way:
         self.car, self.router, self.edge = (
             f"{name}_{part}" for part in ("car", "way", "edge"))
         self._made = []
+        try:
+            self._make()
+        except BaseException:
+            self.close()
+            raise
+
+    def _make(self):
         for space in (self.car, self.router, self.edge):
             run("ip", "netns", "add", space)
             self._made.append(space)
             run("ip", "-n", space, "link", "set", "lo", "up")
         # A filter of senders would take a way that is closed for both.
-        for key in ("conf/all/rp_filter=0", "conf/default/rp_filter=0",
-                    "ip_forward=1"):
-            file, value = key.split("=")
+        for file, value in (("conf/all/rp_filter", 0),
+                            ("conf/default/rp_filter", 0), ("ip_forward", 1)):
             run("ip", "netns", "exec", self.router, "sh", "-c",
                 f"echo {value} >/proc/sys/net/ipv4/{file}")
         for space, net in ((self.car, 1), (self.edge, 2)):

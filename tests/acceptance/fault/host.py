@@ -48,11 +48,14 @@ class Host:
         self.name, self.disk = name, disk
         self._folder, self._space, self._command = folder, space, command
         self._clock, self._starts, self._process = clock, 0, None
+        self.is_closed = False  # for good
         self.deaths = {}  # of runs that ended on their own: exit codes
 
     # -- the process ------------------------------------------------------------
 
     def start(self):
+        if self.is_closed:
+            raise RuntimeError(f"{self.name} is closed")
         self._starts += 1
         self.run = f"{self.name}_{self._starts:04}"
         self.out = self.disk.at / self.run
