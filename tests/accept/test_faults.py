@@ -105,6 +105,11 @@ class Faults(unittest.TestCase):
         self.assertEqual(found["car.max"], "30.0")
         self.assertEqual(found["ours_s"], "0.00")
 
+    def test_an_own_plan_may_seem_to_come_before_the_continuation(self):
+        self.story.fault.update(kind="stop_car", begin=5.0, mended=6.001)
+        self.story.own_at = 6.0
+        self.assertEqual(self.story.figures()["car.max"], "0.0")
+
     def test_a_revoked_peer_that_goes_on_is_never_out(self):
         self.story.fault["kind"] = "revoke_edge"
         self.story.own_at = None

@@ -14,6 +14,7 @@ from collections import defaultdict
 SERVICE = "trajectory_planning"
 FRESH_S = 0.2    # max_latency + max_interarrival + period, as SOFOF has it
 TRACK_S = 0.02
+FILE_TIME_S = 0.01  # the time of a file is that of the kernel's last tick
 
 
 def lines(folder, name):
@@ -38,8 +39,9 @@ class Silence:
         return 1e3 * (self.end - self.counts_from(stops))
 
     def counts_from(self, stops):
-        return max([self.begin, *(on for begin, on in stops
-                                  if begin < self.end and on < self.end)])
+        return max([self.begin, *(
+            min(on, self.end) for begin, on in stops
+            if begin < self.end and on < self.end + FILE_TIME_S)])
 
 
 class Drive:
