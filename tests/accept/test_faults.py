@@ -36,12 +36,14 @@ class Story:
         self.fault = {"kind": "kill_edge", "begin": 5.0, "mended": 5.5,
                       "end": 8.0, "again": True}
         self.stalls = []
+        self.console = ""
 
     def write(self, folder):
         drive = folder / "0" / "car_0001"
         drive.mkdir(parents=True)
         (drive / "config.toml").touch()
         os.utime(drive / "config.toml", (ZERO, ZERO))
+        (drive.parent / "car_0001.log").write_text(self.console)
         head = "station,service,used,received_s,latency_ms,input_age_ms\n"
         (drive / "cycles.csv").write_text(head + "".join(
             f"101,{SERVICE},1,{t},{self.latency_ms},20\n" for t in self.results))
@@ -124,6 +126,13 @@ class Faults(unittest.TestCase):
         self.story.tracks[300:305] = [
             (t, 210.0) for t, _ in self.story.tracks[300:305]]
         self.assertEqual(self.story.figures()["ours_s"], "0.10")
+
+    def test_the_console_tells_of_a_car_whose_disk_is_full(self):
+        self.story.fault.update(kind="fill_car", told=1, code=1)
+        self.story.console = ("safety\n  without a fresh plan     0.420 s   "
+                              "VIOLATED\n  off the road   0.000 s\n"
+                              "  collisions      0   ok\n")
+        self.assertEqual(self.story.figures()["summary.without_plan"], "0.42")
 
     def test_a_car_that_starts_has_no_plan_yet(self):
         self.story.tracks[:15] = [

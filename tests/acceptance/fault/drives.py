@@ -9,6 +9,7 @@ import bisect
 import csv
 import json
 import os
+import re
 from collections import defaultdict
 
 SERVICE = "trajectory_planning"
@@ -83,13 +84,18 @@ class Drive:
             elif event["what"] == "plan_switch" and not is_remote:
                 self.own[event["station"]].append(event["t_s"])
 
-    def summary(self):
-        """None of a run that was killed."""
+    def told(self):
+        """Its own figures: s without a fresh plan, collisions. Of a run whose disk
+        was full they are on the console alone; of one that was killed, nowhere."""
         try:
             with open(os.path.join(self.folder, "summary.json")) as file:
-                return json.load(file)
+                safety = json.load(file)["safety"]
+            return safety["without_fresh_plan_s"], safety["collisions"]
         except FileNotFoundError:
-            return None
+            with open(f"{self.folder}.log") as file:
+                found = re.search(r"without a fresh plan +([\d.]+) s[^$]*?"
+                                  r"collisions +(\d+)", file.read())
+            return (float(found[1]), int(found[2])) if found else None
 
     def last_written_s(self, station):
         """Of its track; its results; infinity where none were due."""
