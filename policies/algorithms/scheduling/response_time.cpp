@@ -141,7 +141,8 @@ private:
   duration wait(std::size_t i, duration a) const {
     const auto due = a + deadline(i);
     const auto under_way = under_way_before(due);
-    duration start{0};
+    // First come, first served, what counts has come by `a`.
+    auto start = order_ == queue_order::fifo ? a : duration{0};
     for (;;) {
       auto work = under_way;
       for (std::size_t j = 0; j < mix_.size(); ++j) {
@@ -151,7 +152,7 @@ private:
           continue;
         auto jobs = static_cast<duration::rep>(count)
                     * releases(task, std::min(start, last));
-        // The job itself is the last one of its session.
+        // The last one of its session is the job itself.
         if (j == i && releases(task, start) >= releases(task, last))
           --jobs;
         work += jobs * task.wcet;
