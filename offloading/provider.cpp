@@ -364,6 +364,10 @@ provider::at_most(const offered_service& service) const {
   const auto& options = service.options;
   const auto demand = world::demand_of(options.compute);
   const auto& computer = setup_.computer;
+  assert(options.period > duration{0} && demand >= 0);
+  assert(computer.longest_s >= 0 && computer.overrun.mean_s >= 0);
+  assert(computer.overrun.probability >= 0
+         && computer.overrun.probability <= 1);
   return {.wcet = from_seconds(computer.longest_s * demand),
           .period = options.period,
           .deadline = options.limits.max_latency,
