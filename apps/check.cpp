@@ -1,6 +1,7 @@
 // sofof check: reads a scenario and prints what it really says.
 #include "apps/command.hpp"
 #include "apps/scenario_arguments.hpp"
+#include "scenario/schedulability.hpp"
 #include "world/roads/lane_overlaps.hpp"
 #include "world/roads/sharp_bends.hpp"
 #include "world/vehicle/vehicle.hpp"
@@ -50,6 +51,17 @@ void warn_of_overlaps(const scenario::scenario_definition& s) {
         stderr);
 }
 
+/// Says how long results take at most, and warns where that is too long.
+void tell_responses(const scenario::scenario_definition& s) {
+  for (std::size_t p = 0; p < s.providers.size(); ++p) {
+    const auto schedule = scenario::schedule_of(s, p);
+    std::cout << scenario::to_comment(schedule);
+    if (const auto warning = scenario::warning_of(schedule, s);
+        !warning.empty())
+      std::cerr << "sofof: " << warning << '\n';
+  }
+}
+
 } // namespace
 
 void add_check(CLI::App& app, int&) {
@@ -64,6 +76,7 @@ void add_check(CLI::App& app, int&) {
     warn_of_sharp_bends(s);
     warn_of_overlaps(s);
     std::cout << scenario::to_toml(s);
+    tell_responses(s);
   });
 }
 

@@ -5,6 +5,7 @@
 
 #include <cassert>
 #include <cmath>
+#include <numbers>
 
 namespace sofof::channel {
 
@@ -79,6 +80,30 @@ double delay_distribution::mean_s() const {
       return shift_s_ + p_ * q_ / (q_ + r_);
   }
   return 0;
+}
+
+draw_bound delay_distribution::bound() const {
+  constexpr double deviations = 4.264890793922825; // P(Z > this) = `rare`
+  const auto normal_tail = [](double z) {
+    return std::erfc(z / std::numbers::sqrt2) / 2;
+  };
+  switch (kind_) {
+    case shape::none:
+      return {};
+    case shape::uniform:
+    case shape::beta:
+      return {shift_s_ + p_};
+    case shape::exponential:
+      return {shift_s_ - p_ * std::log(rare), rare, p_ * rare};
+    case shape::lognormal: {
+      const auto above_s = std::exp(p_ + q_ * deviations);
+      // As an option is priced: E[X; X > a] − a P(X > a).
+      return {shift_s_ + above_s, rare,
+              std::exp(p_ + q_ * q_ / 2) * normal_tail(deviations - q_)
+                  - above_s * rare};
+    }
+  }
+  return {};
 }
 
 double delay_distribution::deviation_s() const {

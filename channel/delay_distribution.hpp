@@ -8,6 +8,16 @@
 
 namespace sofof::channel {
 
+/// What few draws of a law exceed, or none.
+struct draw_bound {
+  double at_most_s = 0;
+  double probability = 0; ///< That a draw exceeds it; 0 where the law ends.
+  double beyond_s = 0;    ///< E[(draw − at_most_s)+].
+};
+
+/// The probability of laws without an end.
+inline constexpr double rare = 1e-5;
+
 /// How long something takes, at random: a shift plus one of a few shapes.
 /// The default takes no time at all.
 class delay_distribution {
@@ -48,6 +58,9 @@ public:
 
   /// @returns its standard deviation, s.
   double deviation_s() const;
+
+  /// @returns what no draw exceeds, but for few where the law has no end.
+  draw_bound bound() const;
 
 private:
   enum class shape { none, uniform, exponential, lognormal, beta };

@@ -32,6 +32,15 @@ double provider_compute::deviation_s() const {
   return std::hypot(alone.deviation_s(), joint_share * joint.deviation_s());
 }
 
+draw_bound provider_compute::bound() const {
+  const auto a = alone.bound();
+  const auto b = joint.bound();
+  // Rounded as `computing_time` rounds; what exceeds the sum exceeds a part.
+  return {to_seconds(more_computing
+                     + from_seconds(a.at_most_s + joint_share * b.at_most_s)),
+          a.probability + b.probability, a.beyond_s + joint_share * b.beyond_s};
+}
+
 provider_compute compute_measured_with(std::string_view profile) {
   provider_compute c;
   c.model = profile;

@@ -40,6 +40,10 @@ struct provider_compute {
 
   /// @returns its standard deviation, s.
   double deviation_s() const;
+
+  /// @returns what no computing time of a result of unit demand exceeds, but
+  /// for few where a law has no end.
+  draw_bound bound() const;
 };
 
 /// @param profile  The name of a channel profile.

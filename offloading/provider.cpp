@@ -379,6 +379,26 @@ provider::task_of(const offered_service& service) const {
           .deadline = options.limits.max_latency};
 }
 
+// @returns how a service computes at most.
+policies::periodic_task
+provider::at_most(const offered_service& service) const {
+  const auto& options = service.options;
+  const auto demand = world::demand_of(options.compute);
+  const auto& computer = setup_.computer;
+  assert(options.period > duration{0} && demand >= 0);
+  assert(computer.longest_s >= 0 && computer.overrun.mean_s >= 0);
+  assert(computer.overrun.probability >= 0
+         && computer.overrun.probability <= 1);
+  return {.wcet = from_seconds(computer.longest_s * demand),
+          .period = options.period,
+          .deadline = options.limits.max_latency,
+          .jitter = options.per_input
+                        ? policies::jitter_of_calls(options.period)
+                        : duration{0},
+          .overrun = {computer.overrun.probability,
+                      computer.overrun.mean_s * demand}};
+}
+
 // @returns the share of the workers that a service takes.
 double provider::utilisation_by(const messages::service_name& service) const {
   const auto* found = find(service);

@@ -30,6 +30,8 @@ struct provider_computer {
   std::size_t workers = 1; ///< > 0.
   double mean_s = 0;       ///< ≥ 0.
   double deviation_s = 0;  ///< ≥ 0.
+  double longest_s = 0; ///< That no cycle takes longer than, but for `overrun`.
+  policies::overrun_law overrun{};
 };
 
 /// What a provider is made of.
@@ -251,6 +253,7 @@ private:
 
   const offered_service* find(const messages::service_name& service) const;
   policies::periodic_task task_of(const offered_service& service) const;
+  policies::periodic_task at_most(const offered_service& service) const;
   double utilisation_by(const messages::service_name& service) const;
   double utilisation() const;
 

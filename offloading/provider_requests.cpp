@@ -138,6 +138,7 @@ provider::question provider::question_of(const open_request& open,
                            .speed_mps = request.speed_mps,
                            .utilisation = utilisation_by(name),
                            .task = task_of(*service),
+                           .at_most = at_most(*service),
                            .candidates = request.candidates});
     }
   }
@@ -164,7 +165,8 @@ provider::ask_policy(std::span<const policies::request_view> asked,
                           .task = x.task,
                           .worker = x.worker,
                           .utilisation = utilisation_by(x.session.service),
-                          .candidates = x.candidates});
+                          .candidates = x.candidates,
+                          .at_most = at_most(*find(x.session.service))});
       running.push_back(x.session);
     }
   assert(running.size() == sessions.size());

@@ -79,13 +79,17 @@ provider_services::record_of(const planners::station_doubt& x) const {
 offloading::provider_setup rules_of(provider_actor_setup setup,
                                     const provider_services& services) {
   const auto& compute = setup.compute;
+  const auto longest = compute.bound();
   return {.id = setup.id,
           .position = setup.position,
           .area = std::move(setup.area),
           .services = services.offered(),
           .policy = std::move(setup.codm),
           .computer = {static_cast<std::size_t>(compute.workers),
-                       compute.mean_s(), compute.deviation_s()},
+                       compute.mean_s(),
+                       compute.deviation_s(),
+                       longest.at_most_s,
+                       {longest.probability, longest.beyond_s}},
           .map = std::move(setup.map),
           .noise = setup.seed,
           .trace = setup.trace};

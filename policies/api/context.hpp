@@ -113,6 +113,9 @@ struct request_view {
   /// How it computes on one worker: `wcet` is its mean and three standard
   /// deviations more, `deadline` the latency that it may have.
   periodic_task task{};
+  /// The same, with a C that none of its cycles exceeds but for `overrun`, and
+  /// the jitter of cycles that are called by inputs.
+  periodic_task at_most{};
   /// What the vehicle wins by each provider that it could ask, this one among
   /// them: policies/api/gain.hpp.
   std::span<const candidate> candidates{};
@@ -127,6 +130,7 @@ struct session_view {
   std::size_t worker = 0; ///< As `accepted` has it.
   double utilisation = 0; ///< What it adds to that of the provider.
   std::span<const candidate> candidates{}; ///< As the vehicle asked for it.
+  periodic_task at_most{};                 ///< As a request has it.
 };
 
 /// What a provider weighs: requests, and what runs already.

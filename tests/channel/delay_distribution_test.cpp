@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -80,4 +81,44 @@ TEST_CASE("a profile's constant delay is on top of all draws, each way") {
         CHECK(more.network_delay(id, {}) - plain.network_delay(id, {}) == 30ms);
       }
   }
+}
+
+TEST_CASE("no draw of a law that ends exceeds its bound, and some come near") {
+  const random_stream noise{1, "bounds"};
+  for (const auto& law :
+       {delay_distribution{}, delay_distribution::uniform(5ms, 25ms),
+        delay_distribution::beta(45ms, 0.646, 2.11).kept(0.5)}) {
+    const auto bound = law.bound();
+    CHECK(bound.probability == 0);
+    CHECK(bound.beyond_s == 0);
+    double longest_s = 0;
+    for (std::uint64_t k = 0; k < 20000; ++k)
+      longest_s = std::max(longest_s, law.draw_s(noise, k, 0));
+    CHECK(longest_s <= bound.at_most_s);
+    CHECK(longest_s >= 0.95 * bound.at_most_s);
+  }
+}
+
+TEST_CASE(
+    "one in a hundred thousand draws of an endless law exceeds its bound, "
+    "by what the law says") {
+  // Of the log-normal law with this mean and deviation.
+  const auto variance = std::log1p(0.16);
+  const auto middle = std::log(10e-3) - variance / 2;
+  const auto above = [&](double x_s) {
+    return std::erfc((std::log(x_s) - middle) / std::sqrt(2 * variance)) / 2;
+  };
+  const auto bound = delay_distribution::lognormal(3ms, 10ms, 4ms).bound();
+  const auto at_s = bound.at_most_s - 3e-3;
+  CHECK(above(at_s) == doctest::Approx(rare).epsilon(1e-6));
+  CHECK(bound.probability == rare);
+  double beyond_s = 0; // ∫ P(X > x) dx
+  constexpr double step_s = 1e-6;
+  for (auto x_s = at_s; x_s < 1; x_s += step_s)
+    beyond_s += above(x_s + step_s / 2) * step_s;
+  CHECK(bound.beyond_s == doctest::Approx(beyond_s).epsilon(1e-3));
+
+  const auto other = delay_distribution::exponential(7ms).bound();
+  CHECK(std::exp(-other.at_most_s / 7e-3) == doctest::Approx(rare));
+  CHECK(other.beyond_s == doctest::Approx(7e-3 * rare));
 }

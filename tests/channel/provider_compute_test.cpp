@@ -109,3 +109,19 @@ TEST_CASE("a service computes as long as it demands, the constant part too") {
   CHECK(c.computing_time(draws_here(), 3, 2) == 2 * (plain + 8ms));
   CHECK(c.computing_time(draws_here(), 3, 0) == 0ms);
 }
+
+TEST_CASE(
+    "a computing time exceeds its bound where its law has no end, rarely") {
+  auto paper = compute_measured_with("paper_sim");
+  paper.more_computing = 2ms;
+  CHECK(paper.bound().at_most_s == doctest::Approx(2e-3 + 0.3 * 45e-3));
+  CHECK(paper.bound().probability == 0);
+  const auto draws = draws_here();
+  for (std::uint64_t k = 0; k < 20000; ++k)
+    CHECK(paper.computing_time(draws, k, 1.7)
+          <= from_seconds(paper.bound().at_most_s * 1.7));
+  const auto endless = compute_measured_with("paper_5g");
+  CHECK(endless.bound().probability == rare);
+  CHECK(endless.bound().at_most_s > endless.mean_s());
+  CHECK(endless.bound().beyond_s > 0);
+}

@@ -109,7 +109,7 @@ TEST_CASE("a scenario is found by its name, or the nearest one is named") {
   for (const auto* name : {"ulm_lehr", "ulm_lehr.toml"}) {
     const auto end = at.run_sofof({"check", name});
     CHECK(end.code == 0);
-    CHECK(end.err == "sofof: taking config/ulm_lehr.toml\n");
+    CHECK(end.err.starts_with("sofof: taking config/ulm_lehr.toml\n"));
     CHECK(end.out == at.run_sofof({"check", "config/ulm_lehr.toml"}).out);
   }
   for (const auto* name :
