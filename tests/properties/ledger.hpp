@@ -71,6 +71,7 @@ struct client_diary {
     time_point newest_created{};
     std::map<messages::session_id, time_point> newest_of; // in use since
     bool any_result = false;
+    int changes = 0, told = 0; // of its source: that came, in events
   };
   std::vector<entry> services;
   std::vector<std::string> broken; // promises
@@ -79,10 +80,18 @@ struct client_diary {
   void on_record(const messages::record& x) {
     if (const auto* step = std::get_if<messages::trace_record>(&x))
       trace.add(*step, {0, trace.steps() + 1});
+    const auto* event = std::get_if<messages::event_record>(&x);
+    if (event && event->what == messages::event_type::switched)
+      ++of(event->service).told;
   }
 
   /// Everybody has gone.
   void finish() {
+    for (const auto& e : services)
+      if (e.changes != e.told)
+        broken.push_back(
+            fmt::format("the source changed {} times, events tell of {}",
+                        e.changes, e.told));
     for (const auto& x : trace.finish())
       broken.push_back(
           fmt::format("step {}: {}: {}", x.at.line, x.rule, x.what));
@@ -99,6 +108,7 @@ struct client_diary {
     if (e.remote == remote)
       broken.push_back("a source was chosen that was in use already");
     e.remote = remote;
+    ++e.changes;
     e.newest_of.clear();
   }
 
