@@ -203,7 +203,8 @@ void provider::meet(station_id id, station_record& station, peer_id requester,
           now);
   }
   assert(station.sessions.empty());
-  trace_.add(step::met, setup_.id, id, now);
+  trace_.add(step::met, setup_.id, id, now, {},
+             static_cast<std::uint64_t>(requester));
   if (!serves(requester))
     port_.meet(requester);
   station.requester = requester;
@@ -269,6 +270,8 @@ void provider::on_lost(peer_id peer, messages::end_reason why, time_point now) {
   assert(why == messages::end_reason::peer_lost
          || why == messages::end_reason::shutdown);
   pass(now);
+  trace_.add(step::peer_lost, setup_.id, 0, now, messages::name_of(why),
+             static_cast<std::uint64_t>(peer));
   for (auto i = stations_.begin(); i != stations_.end();) {
     const auto next = std::next(i);
     if (i->second.requester == peer)

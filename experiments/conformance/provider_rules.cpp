@@ -20,6 +20,8 @@ constexpr std::string_view vehicle_told = "P9 the vehicle is told of an end";
 constexpr std::string_view digests = "P10 digests come on time";
 constexpr std::string_view silent = "P12 who falls silent is forgotten";
 
+constexpr std::string_view lost = "P16 who is lost is forgotten at once";
+
 constexpr std::string_view inside = "inside";
 
 std::string response_to(const messages::trace_record& x) {
@@ -61,6 +63,8 @@ void provider_rules::add(const step& x, trace_place at) {
   duties_.pass(x.at);
   if (x.what == shut_down)
     return on_shut_down();
+  if (x.what == peer_lost)
+    return on_lost(x);
   auto& of = stations_[x.station];
   switch (x.what) {
     case heard:
@@ -112,6 +116,7 @@ void provider_rules::on_heard(station& of, const step& x) {
 }
 
 void provider_rules::on_met(station& of, const step& x) {
+  of.requester = x.number;
   of.may_offer = true;
   of.last_request = 0;
   of.open.clear();
@@ -247,6 +252,12 @@ void provider_rules::on_forgotten(station& of, const step& x) {
   of.open.clear();
   for (auto& [name, s] : of.sessions)
     must_close(x, name, s, false);
+}
+
+void provider_rules::on_lost(const step& x) {
+  for (const auto& [id, of] : stations_)
+    if (of.is_known && of.requester == x.number)
+      duties_.owe(forgetting(id), x.at, lost, at_);
 }
 
 void provider_rules::on_shut_down() {

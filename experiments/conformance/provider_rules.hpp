@@ -36,6 +36,7 @@ private:
 
   struct station {
     bool is_known = false;
+    std::uint64_t requester = 0;
     time_point heard;
     bool is_inside = false;
     std::optional<time_point> offered;
@@ -57,6 +58,7 @@ private:
   void on_end_sent(station& of, const step& x);
   void on_closed(station& of, const step& x);
   void on_forgotten(station& of, const step& x);
+  void on_lost(const step& x);
   void on_shut_down();
 
   static session* find(station& of, const step& x);

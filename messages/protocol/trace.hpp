@@ -98,8 +98,8 @@ struct trace_record {
   trace_step what{};
   provider_id provider = 0; ///< 0: concerns none.
   station_id station = 0;   ///< 0: likewise.
-  /// Of a request and its answer; of a digest its last counter; of a result
-  /// its cycle.
+  /// Of a request and its answer; of a digest its last counter; of a used
+  /// result its cycle; of `met` and a provider's `peer_lost` the requester.
   std::uint64_t number = 0;
   std::vector<traced_service> services{};
   std::string detail{}; ///< Of `closed` and `end_*` the reason.

@@ -289,6 +289,14 @@ TEST_CASE_FIXTURE(running_provider, "who is silent for two seconds is "
   CHECK(broken() == rules{"P12"});
 }
 
+TEST_CASE_FIXTURE(running_provider, "whose requester is lost is forgotten at "
+                                    "once") {
+  provider(trace_step::peer_lost, none);
+  pass(1ms);
+  provider(trace_step::heard, none, "inside");
+  CHECK(broken() == rules{"P16"});
+}
+
 TEST_CASE_FIXTURE(running_provider, "a request is answered once, and a "
                                     "repeated one not at all") {
   provider(trace_step::request_got, plan);
