@@ -50,7 +50,8 @@ troubles troubles_of(const finished_run& run) {
   troubles all;
   for (const auto& cell : run.disturbed.cells)
     for (const auto& x : cell.disturbed)
-      all[{cell.provider, x.station.value()}].push_back(to_seconds(x.at));
+      if (x.count.most() != channel::disturbance::none)
+        all[{cell.provider, x.station.value()}].push_back(to_seconds(x.at));
   for (auto& [link, times] : all)
     std::ranges::sort(times);
   return all;
@@ -107,7 +108,9 @@ void check_ledger(const finished_run& run, broken_promises& to) {
                                 who, x.requester.front()->ended_s)});
     else if (x.requester.empty()) {
       const auto& p = *x.provider.front();
-      if (p.ended_s < end_s && p.ended_s - p.accepted_s > longest_start_s)
+      const auto died_s = dies_at_s(run.what, x.of.station);
+      const auto since_s = std::max(p.accepted_s, died_s.value_or(0));
+      if (p.ended_s < end_s && p.ended_s - since_s > longest_start_s)
         to.push_back(
             {"closed_by_both",
              fmt::format("{}, which the vehicle never closed, ran from {:.3f} "

@@ -52,6 +52,8 @@ private:
   void look_at(const report::cycle_line& x) {
     check_limits(x);
     const auto found = episodes_.find(x.of);
+    if (found == episodes_.end() && dies_at_s(run_.what, x.of.station))
+      return; // nobody was there to close it
     if (found == episodes_.end())
       return tell("one_source", x.of, x.received_s,
                   "a result was used of a session that the vehicle never "

@@ -4,10 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace sofof::experiments::torture {
 
@@ -33,35 +36,55 @@ private:
   double count_ = 0;
 };
 
-/// Whether a vehicle at this provider, or at any, loses messages in bursts.
-bool has_bursts(const scenario::scenario_definition& s,
-                const std::string& provider) {
+/// @returns the channel of a provider by its name.
+const std::shared_ptr<const channel::channel_profile>&
+channel_to(const scenario::scenario_definition& s,
+           const std::string& provider) {
   for (std::size_t k = 0; k < s.providers.size(); ++k)
     if (s.providers[k].name == provider)
-      return s.channel_to(k)->burst_loss.mean_bad > duration{};
-  return false;
+      return s.channel_to(k);
+  return s.network.channel;
+}
+
+/// Whether what was lost at a time was lost in one direction only.
+bool is_one_way(const std::vector<channel::outage_options>& outages,
+                duration at) {
+  return std::ranges::none_of(outages, [at](const auto& x) {
+    return x.direction == "both" && x.from <= at && at < x.to;
+  });
 }
 
 void count_messages(const finished_run& run, tally& to) {
-  incidents bursts, outages, stalls;
+  incidents bursts, outages, one_way, stalls;
   for (const auto& cell : run.disturbed.cells) {
-    const auto in_bursts = has_bursts(run.what, cell.provider);
+    const auto& channel = *channel_to(run.what, cell.provider);
+    const auto in_bursts = channel.burst_loss.mean_bad > duration{};
     for (const auto& x : cell.disturbed) {
       const auto t_s = to_seconds(x.at);
       to[counted::slow] += static_cast<double>(x.count.slow);
+      to[counted::copied] += static_cast<double>(x.count.copied);
+      to[counted::overtaken] += static_cast<double>(x.count.overtaken);
       if (x.count.lost > 0 && in_bursts)
         bursts.add(x.station.value(), t_s);
       else
         to[counted::loss] += static_cast<double>(x.count.lost);
       if (x.count.outage > 0)
-        outages.add(x.station.value(), t_s);
+        (is_one_way(channel.outages, x.at) ? one_way : outages)
+            .add(x.station.value(), t_s);
       if (x.count.stall > 0)
         stalls.add(x.station.value(), t_s);
     }
   }
   to[counted::burst] = bursts.count();
   to[counted::outage] = outages.count();
+  to[counted::one_way] = one_way.count();
   to[counted::stall] = stalls.count();
+}
+
+void count_vehicles(const finished_run& run, tally& to) {
+  for (const auto& f : run.what.fleets)
+    if (f.fails_at && *f.fails_at < run.what.length)
+      to[counted::dead_car] += static_cast<double>(f.count);
 }
 
 void count_providers(const finished_run& run, tally& to) {
@@ -102,6 +125,12 @@ tally count(const finished_run& run) {
       all[counted::late_2_s] += late_s(x, known) > late_limit_s;
     }
   count_messages(run, all);
+  for (const auto& e : run.events)
+    if (e.what == "implausible" && run.has_liars)
+      ++all[counted::lie];
+    else if (e.what == "implausible" && !run.has_ghosts)
+      ++all[counted::disbelieved];
+  count_vehicles(run, all);
   count_providers(run, all);
   for (const auto& type : run.what.services)
     all[counted::refusal] +=

@@ -3,6 +3,7 @@
 
 #include "experiments/torture/draw_faults.hpp"
 #include "experiments/torture/lottery.hpp"
+#include "experiments/torture/lying_planning.hpp"
 
 #include <fmt/format.h>
 
@@ -36,6 +37,12 @@ std::string text_of(const drawn_town& town, lottery of) {
                      of.number(8, 16, 1));
 }
 
+/// Their computers die some time.
+std::string draw_dead_cars(const drawn_town& town, lottery& of) {
+  return fmt::format("fails_at = \"{:.1f}s\"\n",
+                     of.number(3, town.length_s - 3, 1));
+}
+
 /// One vehicle a block at most, and then some on tours; who comes later waits
 /// until its place is free.
 std::string draw_fleets(const drawn_town& town, lottery of) {
@@ -48,6 +55,8 @@ std::string draw_fleets(const drawn_town& town, lottery of) {
   if (of.happens(0.2))
     text += fmt::format("compute = {{ clock_ghz = {:.1f} }}\n",
                         of.number(0.5, 4, 1));
+  if (of.happens(0.08))
+    text += draw_dead_cars(town, of);
   if (of.happens(0.5)) {
     text += fmt::format("\n[[fleet]]\ncount = {}\nfirst_station = 201\n"
                         "routes = [\"tour *\"]\nappears_at = \"{}s\"\n"
@@ -55,6 +64,8 @@ std::string draw_fleets(const drawn_town& town, lottery of) {
                         of.whole(1, 2), of.whole(1, 10), of.whole(1, 10));
     if (of.happens(0.15))
       text += "connected = false\n";
+    if (of.happens(0.3))
+      text += draw_dead_cars(town, of);
   }
   return text;
 }
@@ -107,6 +118,23 @@ std::string draw_others(lottery of) {
                         "[service.compute]\ninput_octets = {}\n",
                         of.whole(1, 20) * 1000);
   return text;
+}
+
+/// Providers that lie, in some runs: all but the one about crossings, which
+/// need a service of their own.
+std::string draw_lies(lottery of) {
+  if (!of.happens(0.12))
+    return {};
+  const auto last = static_cast<std::int64_t>(lie_names.size()) - 2;
+  const auto which = static_cast<std::size_t>(of.whole(0, last));
+  return fmt::format("\n[lies]\nwhat = \"{}\"\nafter = \"{}s\"\n",
+                     lie_names[which], of.whole(1, 20));
+}
+
+std::string draw_hostile(lottery of) {
+  return of.happens(0.15) ? fmt::format("\n[hostile]\nevery = \"{}ms\"\n",
+                                        of.whole(1, 20) * 50)
+                          : "";
 }
 
 /// Policies that offload as often as they can, mostly.
@@ -169,7 +197,8 @@ std::string draw(std::uint64_t seed) {
          + draw_providers(town, all.part("providers"))
          + draw_v2x(all.part("v2x")) + draw_network(town, all.part("network"))
          + draw_planning(all.part("planning")) + draw_others(all.part("others"))
-         + draw_policies(all.part("policies")) + "\n[record]\ntracks = false\n";
+         + draw_policies(all.part("policies")) + draw_lies(all.part("lies"))
+         + draw_hostile(all.part("hostile")) + "\n[record]\ntracks = false\n";
 }
 
 } // namespace sofof::experiments::torture

@@ -24,6 +24,24 @@ constexpr std::array<weighted, 8> profiles{{{"paper_sim", 3},
                                             {"spiky_5g", 1},
                                             {"ideal", 1}}};
 
+std::string_view draw_direction(lottery& of) {
+  return of.happens(0.5) ? ", direction = \"up\"" : ", direction = \"down\"";
+}
+
+/// At least one time in which nothing gets through, in one direction or both.
+std::string draw_outage_list(const drawn_town& town, lottery& of) {
+  std::string list;
+  auto at_s = of.number(1, 20, 1);
+  while (at_s < town.length_s - 2) {
+    const auto end_s = at_s + of.spread(0.1, 8, 2);
+    list += fmt::format("{}{{ from = \"{:.2f}s\", to = \"{:.2f}s\"{} }}",
+                        list.empty() ? "" : ", ", at_s, end_s,
+                        of.happens(0.4) ? draw_direction(of) : "");
+    at_s = end_s + of.spread(4, 60, 1);
+  }
+  return fmt::format("outage = [{}]", list);
+}
+
 std::string draw_death(const drawn_town& town, lottery& of) {
   const auto at_s = of.number(3, town.length_s - 5, 1);
   auto text = fmt::format("fails_at = \"{:.1f}s\"\n", at_s);
@@ -47,6 +65,10 @@ std::string draw_provider(const drawn_town& town, std::int64_t number,
       number, of.number(0, east_m, 0), of.number(0, north_m, 0), radius_m);
   if (of.happens(0.2))
     text += fmt::format("radio = \"r{}\"\n", number);
+  if (of.happens(0.2)) // it alone is cut off for a while
+    text += fmt::format("network = {{ profile = \"{}\", {} }}\n",
+                        of.one_of<std::string_view>(profiles),
+                        draw_outage_list(town, of));
   if (of.happens(0.4))
     text += draw_death(town, of);
   if (of.happens(0.05))
@@ -100,20 +122,19 @@ std::string draw_cell(const drawn_town&, lottery& of) {
   return fmt::format("cell_mbps = {}\n", of.spread(0.3, 20, 2));
 }
 
+std::string draw_disorder(const drawn_town&, lottery& of) {
+  return fmt::format("disorder = {{ copied = {}, overtaken = {}, longest = "
+                     "\"{}ms\" }}\n",
+                     of.spread(0.001, 0.1, 4), of.spread(0.001, 0.1, 4),
+                     of.whole(1, 50) * 10);
+}
+
 std::string draw_outages(const drawn_town& town, lottery& of) {
-  std::string list;
-  auto at_s = of.number(1, 20, 1);
-  while (at_s < town.length_s - 2) {
-    const auto end_s = at_s + of.spread(0.1, 8, 2);
-    list += fmt::format("{}{{ from = \"{:.2f}s\", to = \"{:.2f}s\" }}",
-                        list.empty() ? "" : ", ", at_s, end_s);
-    at_s = end_s + of.spread(4, 60, 1);
-  }
-  return list.empty() ? list : fmt::format("outage = [{}]\n", list);
+  return draw_outage_list(town, of) + '\n';
 }
 
 using draw_fault = std::string (*)(const drawn_town&, lottery&);
-constexpr std::array<std::pair<draw_fault, double>, 8> faults{
+constexpr std::array<std::pair<draw_fault, double>, 9> faults{
     {{draw_loss, 0.4},
      {draw_burst_loss, 0.2},
      {draw_stalls, 0.2},
@@ -121,7 +142,8 @@ constexpr std::array<std::pair<draw_fault, double>, 8> faults{
      {draw_drift, 0.1},
      {draw_delay, 0.1},
      {draw_cell, 0.1},
-     {draw_outages, 0.35}}};
+     {draw_outages, 0.35},
+     {draw_disorder, 0.25}}};
 
 } // namespace
 

@@ -5,7 +5,9 @@
 #include "experiments/torture/tally.hpp"
 #include "scenario/scenario.hpp"
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,10 +33,18 @@ struct finished_run {
   std::vector<report::octets_line> octets;
   recording::load_table disturbed;
   std::vector<report::event_line> events;
+  bool has_liars = false;  ///< Providers that say what they did not plan.
+  bool has_ghosts = false; ///< Cars that are not there, who are braked for.
 
   /// @returns a figure of the summary, 0 for one that it does not have.
   double figure(const std::string& name) const;
 };
+
+/// @returns when a vehicle's computer dies, if it does, since the start.
+std::optional<double> dies_at_s(const scenario::scenario_definition& s,
+                                std::uint64_t station);
+/// @returns whether any does.
+bool any_dies(const scenario::scenario_definition& s);
 
 /// @throws input_error when a file is missing or broken.
 finished_run read_finished(const scenario::scenario_definition& what,

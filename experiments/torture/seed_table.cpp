@@ -35,6 +35,8 @@ std::string table_of(const seed_log& log,
       + line("sessions", count(counted::sessions), "closed by both sides")
       + line("  late by 2 s", count(counted::late_2_s),
              "or more, of the time in which the link carried")
+      + line("disbelieved", count(counted::disbelieved),
+             "results, of providers that did not lie")
       + "faults\n";
   for (const auto& [what, meaning] : fault_classes)
     text +=

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <sstream>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -27,6 +26,9 @@ toml::node* child(toml::node& of, const step& where) {
   return of.as_array() ? of.as_array()->get(std::get<std::size_t>(where))
                        : nullptr;
 }
+
+/// How long the run is; without it, it would be longer, not shorter.
+constexpr std::string_view length_key = "duration";
 
 /// Takes out what stands there. @returns whether anything did.
 bool take_out(toml::table& all, const way& where) {
@@ -60,19 +62,16 @@ std::vector<way> nodes_of(toml::table& all) {
       waiting.emplace_back(&inner, std::move(there));
     };
     if (auto* table = node->as_table())
-      for (auto&& [key, inner] : *table)
+      for (auto&& [key, inner] : *table) {
+        if (node == &all && key.str() == length_key)
+          continue;
         add(std::string{key.str()}, inner);
+      }
     else if (auto* list = node->as_array())
       for (auto k = list->size(); k-- > 0;)
         add(k, (*list)[k]);
   }
   return found;
-}
-
-std::string text_of(const toml::table& all) {
-  std::ostringstream text;
-  text << toml::toml_formatter{all, toml::format_flags::none} << '\n';
-  return std::move(text).str();
 }
 
 class shrinker {
@@ -85,7 +84,7 @@ public:
     while (take_out_any())
       ;
     shorten();
-    return {text_of(best_), tries_};
+    return {file_text(best_), tries_};
   }
 
 private:
@@ -93,7 +92,7 @@ private:
     if (tries_ == most_)
       return false;
     ++tries_;
-    if (!shows_(text_of(changed)))
+    if (!shows_(file_text(changed)))
       return false;
     best_ = std::move(changed);
     return true;
@@ -101,18 +100,17 @@ private:
 
   /// Ends the run earlier, by large steps first.
   void shorten() {
-    constexpr std::string_view key = "duration";
     for (const auto part : {0.25, 0.5, 0.7, 0.9})
       for (;;) {
         const auto now =
-            parse_duration(best_[key].value_or(std::string{"10min"}));
+            parse_duration(best_[length_key].value_or(std::string{"10min"}));
         const auto tenths =
             static_cast<std::int64_t>(to_seconds(*now) * part * 10);
         if (tenths < 1)
           return;
         auto shorter = best_;
         shorter.insert_or_assign(
-            key, print_duration(tenths * duration{100'000'000}));
+            length_key, print_duration(tenths * duration{100'000'000}));
         if (!keeps(std::move(shorter)))
           break;
       }

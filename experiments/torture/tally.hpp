@@ -17,23 +17,32 @@ enum class counted : std::size_t {
   episodes,    ///< That got data, of all services.
   sessions,    ///< Closed by both sides,
   late_2_s,    ///< of these by one more than 2 s later than by the other.
+  disbelieved, ///< Results of who did not lie that were not believed.
   // Classes of faults: incidents, of the first two messages.
   loss,
   slow,
   burst,
   outage,
+  one_way,
   stall,
+  copied,
+  overtaken,
   crash,
   reboot,
+  dead_car,
+  lie,
+  hostile,
   deaf_map,
   full,
   refusal,
 };
 
-inline constexpr std::array<std::string_view, 16> counted_names{
-    "driven_s", "al_ilqr_s", "offloaded_s", "episodes", "sessions", "late_2_s",
-    "loss",     "slow",      "burst",       "outage",   "stall",    "crash",
-    "reboot",   "deaf_map",  "full",        "refusal"};
+inline constexpr std::array<std::string_view, 23> counted_names{
+    "driven_s", "al_ilqr_s",   "offloaded_s", "episodes", "sessions",
+    "late_2_s", "disbelieved", "loss",        "slow",     "burst",
+    "outage",   "one_way",     "stall",       "copied",   "overtaken",
+    "crash",    "reboot",      "dead_car",    "lie",      "hostile",
+    "deaf_map", "full",        "refusal"};
 
 /// What a fault class is, for people.
 struct fault_class {
@@ -41,11 +50,17 @@ struct fault_class {
   std::string_view meaning;
 };
 
-inline constexpr std::array<fault_class, 10> fault_classes{
+inline constexpr std::array<fault_class, 16> fault_classes{
     {{counted::loss, "messages lost by chance"},
      {counted::slow, "messages 50 ms late or more by a slow network"},
      {counted::burst, "times of loss of a vehicle's connection"},
      {counted::outage, "times in which nothing got through to a vehicle"},
+     {counted::one_way, "times in which nothing got through in one direction"},
+     {counted::copied, "messages that came twice"},
+     {counted::overtaken, "messages that later ones overtook"},
+     {counted::lie, "results that vehicles did not believe, of liars"},
+     {counted::hostile, "messages of a station that makes up cars, or octets"},
+     {counted::dead_car, "vehicles whose computer died"},
      {counted::stall, "times in which a vehicle's messages were held back"},
      {counted::crash, "providers that died"},
      {counted::reboot, "providers that came back"},

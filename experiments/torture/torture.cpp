@@ -9,7 +9,6 @@
 #include "experiments/torture/seed_log.hpp"
 #include "experiments/torture/seed_table.hpp"
 #include "experiments/torture/shrink.hpp"
-#include "scenario/load.hpp"
 
 #include <fmt/format.h>
 
@@ -52,7 +51,7 @@ bool breaks(const verdict& v, const std::string& promise) {
 
 bool loads(const std::string& text) {
   try {
-    scenario::parse_scenario(text, "torture.toml");
+    load({text});
     return true;
   } catch (const input_error&) {
     return false;
@@ -221,7 +220,7 @@ torture_outcome try_seeds(const torture_options& how,
 
 torture_outcome try_scenario(const tried_scenario& what, const fs::path& out,
                              std::ostream& console) {
-  scenario::parse_scenario(what.text, what.file); // says what is wrong
+  load(what); // says what is wrong
   const work_folder work{made(made(out) / unfinished_name)};
   const auto found = try_apart(what, work.path() / "one");
   console << (found.is_good() ? "no promise is broken\n" : sentences_of(found));

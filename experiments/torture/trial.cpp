@@ -2,13 +2,10 @@
 #include "experiments/torture/trial.hpp"
 
 #include "base/options/toml_file.hpp"
-#include "experiments/sweep/run_maker.hpp"
-#include "scenario/load.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
-#include <atomic>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
@@ -121,11 +118,14 @@ std::optional<verdict> parse_verdict(std::string_view text) {
 }
 
 verdict try_here(const tried_scenario& tried, const fs::path& folder) {
-  const auto what = scenario::parse_scenario(tried.text, tried.file);
-  const std::atomic<bool> interrupted{false};
-  virtual_runs("", false)(what, folder, interrupted);
-  const auto run = read_finished(what, folder);
-  return {count(run), check(run)};
+  const auto loaded = load(tried);
+  const auto hostile = run(loaded, folder);
+  auto finished = read_finished(loaded.what, folder);
+  finished.has_liars = loaded.lies.has_value();
+  finished.has_ghosts = loaded.hostile.has_value();
+  verdict found{count(finished), check(finished)};
+  found.counts[counted::hostile] = static_cast<double>(hostile);
+  return found;
 }
 
 trial::trial(const tried_scenario& what, fs::path folder)

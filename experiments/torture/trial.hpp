@@ -4,6 +4,7 @@
 
 #include "experiments/torture/promises.hpp"
 #include "experiments/torture/tally.hpp"
+#include "experiments/torture/tried_scenario.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -19,13 +20,6 @@ struct verdict {
   broken_promises broken;
 
   bool is_good() const { return broken.empty(); }
-};
-
-/// What is tried.
-struct tried_scenario {
-  std::string text;
-  /// Where it stands, or could: files that it names are sought from there on.
-  std::filesystem::path file = "torture.toml";
 };
 
 /// @returns a verdict as text, and back.

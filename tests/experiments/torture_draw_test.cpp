@@ -1,6 +1,6 @@
 // Scenarios with faults that are made up of seeds.
 #include "experiments/torture/draw.hpp"
-#include "scenario/load.hpp"
+#include "experiments/torture/tried_scenario.hpp"
 #include "tests/support/contains.hpp"
 
 #include <doctest/doctest.h>
@@ -33,7 +33,7 @@ TEST_CASE("the same seed gives the same scenario, another one another") {
 TEST_CASE("every scenario that is drawn can be loaded, and is fair") {
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     CAPTURE(seed);
-    const auto s = scenario::parse_scenario(draw(seed), "torture.toml");
+    const auto s = load({draw(seed)}).what;
     CHECK(s.seed == static_cast<std::int64_t>(seed));
     CHECK(s.name == name_of(seed));
     CHECK(s.traffic.grants_crossings());
@@ -48,7 +48,8 @@ TEST_CASE(
   CHECK(draws_with("al_ilqr") > seeds / 2);
   for (const auto* fault :
        {"loss = ", "burst_loss", "stalls", "spikes", "drift", "more_delay",
-        "cell_mbps", "outage", "fails_at", "returns_at", "map = \"none\""}) {
+        "cell_mbps", "outage", "direction", "disorder", "fails_at",
+        "returns_at", "[lies]", "[hostile]", "map = \"none\""}) {
     CAPTURE(fault);
     CHECK(draws_with(fault) > static_cast<int>(seeds) / 100);
   }

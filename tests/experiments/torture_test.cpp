@@ -1,6 +1,7 @@
 // Seed after seed, each in a process of its own, and what is kept of them.
 #include "experiments/torture/torture.hpp"
 
+#include "base/input_error.hpp"
 #include "base/options/toml_file.hpp"
 #include "experiments/torture/draw.hpp"
 #include "experiments/torture/seed_log.hpp"
@@ -12,6 +13,8 @@
 #include <atomic>
 #include <fstream>
 #include <sstream>
+#include <string>
+#include <string_view>
 
 using namespace sofof;
 using namespace sofof::experiments::torture;
@@ -19,6 +22,25 @@ using namespace sofof::experiments::torture;
 namespace {
 
 const std::atomic<bool> never{false};
+
+constexpr std::string_view plain = R"(duration = "30s"
+[street_grid]
+columns = 2
+rows = 2
+[[fleet]]
+routes = ["block *"]
+[[provider]]
+area_radius_m = 500.0
+[[service]]
+name = "trajectory_planning"
+[service.planner]
+name = "lane_follow"
+[policies]
+lodm = "always"
+codm = "always"
+[record]
+tracks = false
+)";
 
 verdict some_verdict() {
   verdict v;
@@ -47,6 +69,29 @@ TEST_CASE("a run that cannot go on breaks a promise, and ends nothing else") {
   CHECK(v.broken.front().promise == "it_ends");
   CHECK(test::contains(v.broken.front().what, "torture.toml:1:"));
   CHECK_FALSE(std::filesystem::exists(at / "one"));
+}
+
+TEST_CASE("hostile messages break no promise") {
+  const test::scratch at;
+  const auto v = try_here(
+      {std::string{plain} + "[hostile]\nevery = \"10ms\"\n"}, at / "run");
+  CHECK(v.is_good());
+  CHECK(v.counts[counted::hostile] >= 2900);
+  CHECK(v.counts[counted::offloaded_s] > 20);
+}
+
+TEST_CASE("a provider that lies is found out, and no promise breaks") {
+  const test::scratch at;
+  const auto v = try_here(
+      {std::string{plain} + "[lies]\nwhat = \"jump\"\nafter = \"3s\"\n"},
+      at / "run");
+  CHECK(v.is_good());
+  CHECK(v.counts[counted::lie] == 1); // it is not asked again for a minute
+}
+
+TEST_CASE("a lie that nobody knows is refused") {
+  CHECK_THROWS_WITH_AS(load({"[lies]\nwhat = \"jumps\"\n"}),
+                       doctest::Contains("jump"), input_error);
 }
 
 TEST_CASE("seeds are tried once, by shards that share a folder") {

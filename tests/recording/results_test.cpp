@@ -143,7 +143,7 @@ TEST_CASE("disturbed.csv has a line for each moment and vehicle that was "
   CHECK(content_of(dir / "disturbed.csv")
         == "t_s,provider,direction,station,what,lost,outage,stall,slow,copied,"
            "overtaken\n"
-           "0.999000000,mec,up,101,one,0,0,1,0,2,0\n"
+           "0.999000000,mec,up,101,one,0,0,1,0,0,2\n"
            "2.000000000,mec,down,102,CAM,1,1,0,3,0,0\n");
 }
 
