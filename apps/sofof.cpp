@@ -71,6 +71,7 @@ int obey(int argc, char** argv) {
   sofof::apps::add_sweep(app, exit_code);
   sofof::apps::add_bench(app, exit_code);
   sofof::apps::add_train(app, exit_code);
+  sofof::apps::add_torture(app, exit_code);
   sofof::apps::add_provide(app, exit_code);
   sofof::apps::add_drive(app, exit_code);
   sofof::apps::add_reproduce(app, exit_code);

@@ -145,10 +145,32 @@ outage_process channel_draws::fades() const {
           delay_distribution::exponential(burst.mean_bad)};
 }
 
-bool channel_draws::is_out(duration since_start) const {
-  return std::ranges::any_of(profile_->outages, [since_start](const auto& x) {
-    return x.from <= since_start && since_start < x.to;
+bool channel_draws::is_out(direction to, duration since_start) const {
+  const auto* other = to == direction::up ? "down" : "up";
+  return std::ranges::any_of(profile_->outages, [&](const auto& x) {
+    return x.from <= since_start && since_start < x.to && x.direction != other;
   });
+}
+
+duration channel_draws::overtaken_by(const message_id& m) const {
+  return disordered(m, profile_->disorder.overtaken, overtaken_lane,
+                    overtaken_by_lane)
+      .value_or(duration{});
+}
+
+std::optional<duration> channel_draws::copied_after(const message_id& m) const {
+  return disordered(m, profile_->disorder.copied, copied_lane,
+                    copied_after_lane);
+}
+
+std::optional<duration> channel_draws::disordered(const message_id& m,
+                                                  double probability,
+                                                  std::uint32_t lane,
+                                                  std::uint32_t by_lane) const {
+  if (probability <= 0 || of(m).uniform(m.number, lane) >= probability)
+    return std::nullopt;
+  return from_seconds(to_seconds(profile_->disorder.longest)
+                      * of(m).uniform(m.number, by_lane));
 }
 
 channel_draws::streams channel_draws::split(std::string_view direction,

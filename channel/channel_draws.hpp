@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 namespace sofof::channel {
@@ -73,10 +74,19 @@ public:
   outage_process fades() const;
 
   /// @param since_start  Of the run.
-  /// @returns whether nothing gets through then, for anybody.
-  bool is_out(duration since_start) const;
+  /// @returns whether nothing gets through in this direction then, for anybody.
+  bool is_out(direction to, duration since_start) const;
+
+  /// @returns how much longer a message takes, without making others wait.
+  duration overtaken_by(const message_id& m) const;
+
+  /// @returns how long after a message a copy of it arrives, if one does.
+  std::optional<duration> copied_after(const message_id& m) const;
 
 private:
+  std::optional<duration> disordered(const message_id& m, double probability,
+                                     std::uint32_t lane,
+                                     std::uint32_t by_lane) const;
   duration drawn_delay(const message_id& m, time_point sent) const;
   double drift(time_point sent) const;
   struct streams {

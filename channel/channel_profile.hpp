@@ -8,6 +8,7 @@
 #include "channel/delay_distribution.hpp"
 #include "channel/trace.hpp"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -100,8 +101,9 @@ struct spike_options {
 /// A time in which nothing gets through, for anybody: what is sent meanwhile is
 /// lost.
 struct outage_options {
-  duration from{}; ///< Since the start of the run,
-  duration to{};   ///< up to here.
+  duration from{};                ///< Since the start of the run,
+  duration to{};                  ///< up to here.
+  std::string direction = "both"; ///< Or "up", to the provider, or "down".
 
   void visit_options(option_visitor& s) {
     using namespace std::chrono_literals;
@@ -109,6 +111,26 @@ struct outage_options {
     s.field("to", to, 0ns);
     if (to <= from)
       s.refuse("to", "must be later than from");
+    constexpr std::array<std::string_view, 3> directions{"both", "down", "up"};
+    visit_word(s, "direction", direction, "direction", directions);
+  }
+};
+
+/// Messages that come twice, or after later ones, as datagrams may.
+struct disorder_options {
+  double copied = 0;    ///< Probability in [0, 1]: a copy comes later.
+  double overtaken = 0; ///< Likewise: it takes longer, and later ones do not
+                        ///< wait for it.
+  duration longest{};   ///< So much later at most, uniformly, in both cases.
+
+  void visit_options(option_visitor& s) {
+    using namespace std::chrono_literals;
+    s.field("copied", copied, {0, 1});
+    s.field("overtaken", overtaken, {0, 1});
+    s.field("longest", longest, 0ns);
+    if ((copied > 0 || overtaken > 0) && longest == 0ns)
+      s.refuse(copied > 0 ? "copied" : "overtaken",
+               "has no effect while longest is \"0s\"");
   }
 };
 
@@ -135,6 +157,7 @@ struct channel_profile {
   burst_loss_options burst_loss;
   drift_options drift; ///< Of network delays, without `more_delay`.
   spike_options spikes;
+  disorder_options disorder;
   std::vector<outage_options> outages; ///< `outage` in files.
 
   /// Replays `trace`: a result takes the measured round trip, messages to the
@@ -160,6 +183,8 @@ struct channel_profile {
             [this](option_visitor& t) { burst_loss.visit_options(t); });
     s.table("drift", [this](option_visitor& t) { drift.visit_options(t); });
     s.table("spikes", [this](option_visitor& t) { spikes.visit_options(t); });
+    s.table("disorder",
+            [this](option_visitor& t) { disorder.visit_options(t); });
     visit_list(s, "outage", outages);
   }
 };

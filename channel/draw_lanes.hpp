@@ -17,7 +17,11 @@ enum draw_lane : std::uint32_t {
   spike_length_lane,
   renewal_lane, ///< Whether a draw is that of the number before.
   host_lane,
-  host_wait_lane
+  host_wait_lane,
+  overtaken_lane,
+  overtaken_by_lane,
+  copied_lane,
+  copied_after_lane
 };
 
 } // namespace sofof::channel

@@ -20,24 +20,29 @@ passage link_direction::carry(time_point sent, message_class kind,
   const auto on_air = queues ? cell_->finish(sent, airtime) : sent + airtime;
   const auto stall = stalls_.at(sent);
   const auto fades = fades_.at(sent).has_value();
-  if (draws_.is_out(sent - start_))
+  if (draws_.is_out(direction_, sent - start_))
     return {std::nullopt, disturbance::outage};
   if (draws_.lost(m, fades))
     return {std::nullopt, disturbance::loss};
   const auto leaves = stall ? std::max(on_air, stall->end) : on_air;
-  const auto delay = stall ? draws_.burst_delay(direction_, stall->number)
-                           : draws_.network_delay(m, sent);
+  const auto late = draws_.overtaken_by(m);
+  const auto delay = late
+                     + (stall ? draws_.burst_delay(direction_, stall->number)
+                              : draws_.network_delay(m, sent));
   auto arrives = leaves + delay;
-  if (kind != message_class::digest) // none overtakes another one
+  const auto is_overtaken = late > duration{};
+  if (kind != message_class::digest && !is_overtaken) // else none is overtaken
     arrives = last_arrival_ = std::max(last_arrival_, arrives);
   const auto is_held = stall && stall->end > on_air;
   // Behind a slow one it is as late as that, since none overtakes.
   const auto is_slow = arrives - leaves >= slow_delay;
-  const passage through{arrives,
-                        is_held   ? disturbance::stall
-                        : is_slow ? disturbance::slow
-                                  : disturbance::none,
-                        arrives - sent - airtime - delay};
+  passage through{arrives,
+                  is_held   ? disturbance::stall
+                  : is_slow ? disturbance::slow
+                            : disturbance::none,
+                  arrives - sent - airtime - delay, std::nullopt, is_overtaken};
+  if (const auto after = draws_.copied_after(m))
+    through.copy_arrives = arrives + *after;
   assert(through.wait >= duration{0});
   return through;
 }

@@ -34,6 +34,8 @@ struct passage {
   /// Of its time on the way, what it waited: for its turn in the cell, for the
   /// end of a stall, or for a message before it.
   duration wait{};
+  std::optional<time_point> copy_arrives; ///< If it arrives twice.
+  bool is_overtaken = false; ///< It was late, and others did not wait for it.
 };
 
 /// Carries the messages of one vehicle one way. Has one owner; only the cell
@@ -54,7 +56,8 @@ public:
   ///                number for everything else (streams of their own).
   /// @param octets  What the message takes on the air.
   /// @returns among others when it arrives: never before an earlier message,
-  /// but for digests, which neither wait nor are waited for.
+  /// but for digests, which neither wait nor are waited for, and for messages
+  /// that disorder makes others overtake.
   passage carry(time_point sent, message_class kind, std::uint64_t number,
                 std::size_t octets = usual_octets);
 

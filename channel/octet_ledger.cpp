@@ -39,6 +39,8 @@ disturbed_count& disturbed_count::operator+=(const disturbed_count& x) {
   outage += x.outage;
   stall += x.stall;
   slow += x.slow;
+  copied += x.copied;
+  overtaken += x.overtaken;
   return *this;
 }
 
@@ -105,8 +107,12 @@ octet_line& octet_ledger::line_of(std::string_view what) {
 
 octet_fates& octet_ledger::count(const sending& x, octet_line& line) {
   assert(x.at >= start_);
-  if (x.by != disturbance::none)
-    disturbed_[{x.at - start_, {x.station, std::string{x.what}}}].add(x.by);
+  if (x.is_disturbed()) {
+    auto& of = disturbed_[{x.at - start_, {x.station, std::string{x.what}}}];
+    of.add(x.by);
+    of.copied += x.is_copy;
+    of.overtaken += x.is_overtaken;
+  }
   auto& fates = line.rows.at(x.at - start_);
   fates.sent.add(x.octets);
   return fates;

@@ -56,6 +56,9 @@ struct disturbed_count {
   std::uint64_t outage = 0; ///< Lost, as nothing got through.
   std::uint64_t stall = 0;  ///< Delivered late, as a stall held them back.
   std::uint64_t slow = 0;   ///< Delivered late, as the network was slow.
+  // Besides, of those and of others:
+  std::uint64_t copied = 0;    ///< Delivered twice.
+  std::uint64_t overtaken = 0; ///< Delivered late; later ones did not wait.
 
   void add(disturbance by);
   disturbed_count& operator+=(const disturbed_count& x);
@@ -79,6 +82,16 @@ struct sending {
   std::size_t octets = 0; ///< On the air.
   time_point at;          ///< Not before the start.
   disturbance by = disturbance::none;
+  bool is_overtaken = false;
+  bool is_copy = false; ///< Of one that was sent before.
+
+  bool is_disturbed() const {
+    return by != disturbance::none || is_overtaken || is_copy;
+  }
+  /// @returns its copy; what disturbed it is counted once.
+  sending copy() const {
+    return {what, station, octets, at, disturbance::none, false, true};
+  }
 };
 
 /// Counts messages when they are sent, and again when they are lost or their

@@ -214,6 +214,8 @@ inline constexpr csv_column<disturbed_row> of_disturbed[]{
     {"outage", [](const auto& r) { return r.of.x.count.outage; }},
     {"stall", [](const auto& r) { return r.of.x.count.stall; }},
     {"slow", [](const auto& r) { return r.of.x.count.slow; }},
+    {"copied", [](const auto& r) { return r.of.x.count.copied; }},
+    {"overtaken", [](const auto& r) { return r.of.x.count.overtaken; }},
 };
 
 inline constexpr csv_column<track_row> of_tracks[]{

@@ -194,7 +194,8 @@ std::optional<channel::disturbance> disturbance_of(const load_table& table,
   const channel::disturbed_line* first = nullptr;
   for (const auto& x : cell->disturbed)
     if (x.at > sent.after && x.at <= sent.until && x.station == path.station
-        && x.what == path.what && (!first || x.at < first->at))
+        && x.what == path.what && x.count.most() != channel::disturbance::none
+        && (!first || x.at < first->at))
       first = &x;
   return first ? first->count.most() : channel::disturbance::none;
 }

@@ -173,7 +173,8 @@ public:
           std::shared_ptr<messages::record_sink> sink,
           messages::etsi::its_clock clock, bool virtual_time,
           const process_share& here)
-      : sys_{sys}, s_{s}, here_{here}, virtual_time_{virtual_time},
+      : sys_{sys}, s_{s}, here_{here},
+        virtual_time_{virtual_time}, start_{actors::now(sys)},
         where_{std::make_shared<const messages::georeference>(
             messages::geo_frame{s.world->map.origin()}, clock)},
         decode_{
@@ -329,7 +330,7 @@ private:
     if (fleet.connected) {
       setup.v2x = s_.v2x;
       setup.air = world_.air;
-      setup.antennas = connect_all(v.station);
+      setup.antennas = connect_all(v.station, !fleet.fails_at);
     }
     for (const auto& a : setup.antennas)
       world_.links.push_back(a.link);
@@ -342,20 +343,22 @@ private:
          fmt::format("vehicle {}", v.station));
   }
 
-  std::vector<actors::antenna> connect_all(station_id station) {
+  /// @param lives  Whether the vehicle's computer does to the end.
+  std::vector<actors::antenna> connect_all(station_id station, bool lives) {
     std::vector<actors::antenna> all;
     const auto watch = [&](const actors::antenna& a) {
       name(watched_, a.link, fmt::format("a link of vehicle {}", station));
     };
     for (const auto& at : cells_) {
       all.push_back(connect(sys_, s_, station, at));
-      if (!at.may_die())
+      if (lives && !at.may_die())
         watch(all.back());
     }
     for (std::size_t k = 0; k < here_.remotes.size(); ++k) {
       all.push_back(
           connect(sys_, s_, station, here_.remotes[k], world_.connections[k]));
-      watch(all.back());
+      if (lives)
+        watch(all.back());
     }
     return all;
   }
@@ -379,6 +382,7 @@ private:
             lodm = s_.policies.lodm, recorder = world_.recorder,
             noise = noise_of(s_, "vehicle").part(v.station.value()),
             virtual_time = virtual_time_, computer = s_.fleets[v.fleet].compute,
+            fails_at = s_.fleets[v.fleet].fails_at, start = start_,
             host = s_.network.channel->vehicle_host, future = std::move(future),
             margins = s_.record.margins,
             trace = s_.record.trace](const messages::vehicle_actor& vehicle) {
@@ -386,19 +390,25 @@ private:
         return way->waypoints(ego.s_m, protocol::route_ahead_m,
                               protocol::route_spacing_m);
       };
-      return actors::spawn_service_requester(sys, {.station = station,
-                                                   .path_ahead = path_ahead,
-                                                   .services = services,
-                                                   .lodm = lodm->clone(),
-                                                   .vehicle = vehicle,
-                                                   .recorder = recorder,
-                                                   .noise = noise,
-                                                   .virtual_time = virtual_time,
-                                                   .computer = computer,
-                                                   .host = host,
-                                                   .future = future,
-                                                   .record_margins = margins,
-                                                   .trace = trace});
+      auto requester =
+          actors::spawn_service_requester(sys, {.station = station,
+                                                .path_ahead = path_ahead,
+                                                .services = services,
+                                                .lodm = lodm->clone(),
+                                                .vehicle = vehicle,
+                                                .recorder = recorder,
+                                                .noise = noise,
+                                                .virtual_time = virtual_time,
+                                                .computer = computer,
+                                                .host = host,
+                                                .future = future,
+                                                .record_margins = margins,
+                                                .trace = trace});
+      if (fails_at)
+        actors::spawn_crash_injector(
+            sys, caf::actor_cast<caf::actor>(requester),
+            std::max(start + *fails_at - actors::now(sys), duration{0}));
+      return requester;
     };
   }
 
@@ -406,6 +416,7 @@ private:
   const scenario_definition& s_;
   const process_share& here_;
   bool virtual_time_;
+  time_point start_;
   messages::georeference_ptr where_;
   std::function<messages::broadcast(const messages::its_pdu&, time_point)>
       decode_;

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,6 +37,9 @@ struct fleet_options {
   /// somebody near its place waits.
   duration appears_at{};
   duration appear_every{};
+  /// Their computers die then, without goodbye; they come to rest by the plan
+  /// that they have.
+  std::optional<duration> fails_at;
   world::computer_options compute{}; ///< In each of them.
 
   void visit_options(option_visitor& s) {
@@ -56,6 +60,8 @@ struct fleet_options {
     s.field("connected", connected);
     s.field("appears_at", appears_at, 0ns);
     s.field("appear_every", appear_every, 0ns);
+    if (s.has("fails_at", fails_at.has_value()))
+      s.field("fails_at", fails_at ? *fails_at : fails_at.emplace(), 1ns);
     s.moved("computer", "compute");
     s.table("compute", [this](option_visitor& t) { compute.visit_options(t); });
   }

@@ -16,6 +16,8 @@ namespace {
 caf::behavior crash_injector(caf::event_based_actor* self,
                              const caf::actor& victim, duration after) {
   send_after(self, self, after, messages::tick_atom_v);
+  self->monitor(victim);
+  self->set_down_handler([self](const caf::down_msg&) { self->quit(); });
   return {[self, victim](messages::tick_atom) {
     self->send_exit(victim, caf::exit_reason::kill);
     self->quit();

@@ -10,8 +10,9 @@
 namespace sofof::actors {
 
 /// @param victim  Is killed: it tells nobody, but whoever monitors it hears.
-/// @param after   From now on. The actor that is returned waits for that; once
-///                it has ended nothing happens any more.
+/// @param after   From now on. The actor that is returned waits for that, or
+///                until the victim has ended; once it has ended itself nothing
+///                happens any more.
 caf::actor spawn_crash_injector(caf::actor_system& sys, caf::actor victim,
                                 duration after);
 

@@ -16,16 +16,6 @@ namespace sofof::actors {
 
 namespace {
 
-// @returns the message as it arrives after that way.
-template <class Message>
-Message after(Message message, const messages::transit& way) {
-  if constexpr (std::same_as<Message, messages::service_input>)
-    message.up = way;
-  else if constexpr (std::same_as<Message, messages::service_result>)
-    message.timing.down = way;
-  return message;
-}
-
 struct link_state {
   static inline const char* name = "network_link";
 
@@ -78,8 +68,9 @@ struct link_state {
     const auto fate = through.arrives && setup->faults
                           ? setup->faults->of(carried++)
                           : channel::link_faults::fate{};
-    channel::sending leaving{purpose_of(message), setup->station, octets, sent,
-                             through.by};
+    channel::sending leaving{
+        purpose_of(message), setup->station,      octets, sent,
+        through.by,          through.is_overtaken};
     if (!through.arrives || fate.lost) {
       if (fate.lost)
         leaving.by = channel::disturbance::loss;
@@ -95,6 +86,9 @@ struct link_state {
               after(message, {wait, arrives - sent - wait}), xs...);
     };
     deliver(*through.arrives + fate.extra_delay);
+    leaving = leaving.copy();
+    if (through.copy_arrives)
+      deliver(*through.copy_arrives);
     if (fate.copy_after)
       deliver(*through.arrives + *fate.copy_after);
   }

@@ -1,4 +1,4 @@
-// What a message takes on the air, and what it is for.
+// What a message takes on the air, what it is for, and how it arrives.
 #pragma once
 
 #include "messages/etsi/cam.hpp"
@@ -9,6 +9,7 @@
 #include "messages/protocol/service.hpp"
 #include "messages/v2x/geonet.hpp"
 
+#include <concepts>
 #include <cstddef>
 #include <string_view>
 
@@ -55,6 +56,16 @@ std::string_view purpose_of(const Message& message) {
     return message.session.service.view();
   else
     return "protocol";
+}
+
+/// @returns the message as it arrives after that way.
+template <class Message>
+Message after(Message message, const messages::transit& way) {
+  if constexpr (std::same_as<Message, messages::service_input>)
+    message.up = way;
+  else if constexpr (std::same_as<Message, messages::service_result>)
+    message.timing.down = way;
+  return message;
 }
 
 } // namespace sofof::actors

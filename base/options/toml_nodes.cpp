@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 namespace sofof {
 
@@ -61,6 +62,12 @@ std::string value_text(const toml::node& value) {
     text << toml::toml_formatter{exact, toml::format_flags::none};
   });
   return text.str();
+}
+
+std::string file_text(const toml::table& all) {
+  std::ostringstream text;
+  text << toml::toml_formatter{all, toml::format_flags::none} << '\n';
+  return std::move(text).str();
 }
 
 } // namespace sofof

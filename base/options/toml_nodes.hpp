@@ -16,4 +16,7 @@ toml::table parse_toml(std::string_view text, std::string_view file);
 /// `--set` takes them.
 std::string value_text(const toml::node& value);
 
+/// @returns a whole file that says what the table does.
+std::string file_text(const toml::table& all);
+
 } // namespace sofof

@@ -247,14 +247,17 @@ std::vector<claim_line> read_claims(const fs::path& folder) {
 std::optional<recording::load_table> read_disturbed(const fs::path& folder) {
   static constexpr columns names{"t_s",  "provider", "direction", "station",
                                  "what", "lost",     "outage",    "stall"};
-  static constexpr columns newer{"slow"};
-  constexpr std::size_t slow = 8;
+  static constexpr columns newer{"slow", "copied", "overtaken"};
+  constexpr std::size_t slow = 8, copied = 9, overtaken = 10;
   const auto file = folder / "disturbed.csv";
   if (!fs::exists(file))
     return std::nullopt;
   recording::load_table all;
   csv_reader row{file, names, ending_of(folder), newer};
   all.tells_slow = row.has(slow);
+  const auto if_any = [&row](std::size_t column) {
+    return row.has(column) ? row.whole(column) : 0;
+  };
   while (row.next()) {
     const auto& provider = row.text(1);
     const auto* direction = row.text(2) == "up" ? "up" : "down";
@@ -269,11 +272,12 @@ std::optional<recording::load_table> read_disturbed(const fs::path& folder) {
     });
     if (cell == all.cells.end())
       cell = all.cells.insert(cell, {provider, direction, {}, {}});
-    cell->disturbed.push_back({from_seconds(row.number(0)),
-                               static_cast<station_id::rep>(row.whole(3)),
-                               row.text(4),
-                               {row.whole(5), row.whole(6), row.whole(7),
-                                row.has(slow) ? row.whole(slow) : 0}});
+    cell->disturbed.push_back(
+        {from_seconds(row.number(0)),
+         static_cast<station_id::rep>(row.whole(3)),
+         row.text(4),
+         {row.whole(5), row.whole(6), row.whole(7), if_any(slow),
+          if_any(copied), if_any(overtaken)}});
   }
   return all;
 }

@@ -373,3 +373,53 @@ TEST_CASE("a link says by what it lost a message") {
   CHECK(by_chance > 60);
   CHECK(by_chance < 140);
 }
+
+TEST_CASE("an outage of one direction is none of the other one") {
+  auto p = named("ideal");
+  p.outages = {{1s, 2s, "up"}, {3s, 4s, "down"}};
+  link_direction up{link_channel(p), direction::up, nullptr};
+  link_direction down{link_channel(p), direction::down, nullptr};
+  const auto by = [](link_direction& link, duration sent) {
+    return link.carry(time_point{sent}, kind::other, 1).by;
+  };
+  CHECK(by(up, 1500ms) == disturbance::outage);
+  CHECK(by(down, 1500ms) == disturbance::none);
+  CHECK(by(up, 3500ms) == disturbance::none);
+  CHECK(by(down, 3500ms) == disturbance::outage);
+}
+
+TEST_CASE("without disorder none is copied or overtaken, with it as many as it "
+          "says, by at most so much") {
+  auto p = named("ideal");
+  link_direction orderly{link_channel(p), direction::down, nullptr};
+  p.disorder = {0.2, 0.1, 30ms};
+  link_direction link{link_channel(p), direction::down, nullptr};
+  constexpr int all = 10'000;
+  int copied = 0, overtaken = 0, out_of_order = 0;
+  auto last = time_point::min();
+  for (int n = 0; n < all; ++n) {
+    const time_point sent{n * 10ms};
+    const auto number = static_cast<std::uint64_t>(n);
+    const auto plain = orderly.carry(sent, kind::other, number);
+    CHECK_FALSE(plain.copy_arrives);
+    CHECK_FALSE(plain.is_overtaken);
+    const auto x = link.carry(sent, kind::other, number);
+    REQUIRE(x.arrives);
+    CHECK(*x.arrives >= *plain.arrives);
+    CHECK(*x.arrives <= *plain.arrives + 30ms);
+    CHECK((*x.arrives == *plain.arrives) != x.is_overtaken);
+    if (x.copy_arrives) {
+      CHECK(*x.copy_arrives >= *x.arrives);
+      CHECK(*x.copy_arrives <= *x.arrives + 30ms);
+    }
+    copied += x.copy_arrives.has_value();
+    overtaken += x.is_overtaken;
+    out_of_order += *x.arrives < last;
+    last = *x.arrives;
+  }
+  CHECK(copied > all * 0.18);
+  CHECK(copied < all * 0.22);
+  CHECK(overtaken > all * 0.09);
+  CHECK(overtaken < all * 0.11);
+  CHECK(out_of_order > all * 0.03);
+}

@@ -132,7 +132,8 @@ TEST_CASE("disturbed.csv has a line for each moment and vehicle that was "
           "disturbed, while the run goes on") {
   const scratch dir;
   results r{dir.path(), run()};
-  const disturbed_messages stalled{"mec", "up", {999ms, 101, "one", {0, 0, 1}}};
+  const disturbed_messages stalled{
+      "mec", "up", {999ms, 101, "one", {0, 0, 1, 0, 0, 2}}};
   const disturbed_messages lost{"mec", "down", {2s, 102, "CAM", {1, 1, 0, 3}}};
   r.add_disturbed(std::span{&stalled, 1}, at(1s));
   r.flush();
@@ -140,9 +141,10 @@ TEST_CASE("disturbed.csv has a line for each moment and vehicle that was "
   r.add_disturbed(std::span{&lost, 1}, at(100s));
   r.finish(at(100s), 2, false);
   CHECK(content_of(dir / "disturbed.csv")
-        == "t_s,provider,direction,station,what,lost,outage,stall,slow\n"
-           "0.999000000,mec,up,101,one,0,0,1,0\n"
-           "2.000000000,mec,down,102,CAM,1,1,0,3\n");
+        == "t_s,provider,direction,station,what,lost,outage,stall,slow,copied,"
+           "overtaken\n"
+           "0.999000000,mec,up,101,one,0,0,1,0,0,2\n"
+           "2.000000000,mec,down,102,CAM,1,1,0,3,0,0\n");
 }
 
 TEST_CASE("the summary says what happened") {

@@ -128,14 +128,17 @@ TEST_CASE("a provider may have a radio and a network of its own") {
 
 TEST_CASE("fleets have computers, services say what a cycle asks of them") {
   const auto s = example::load(
-      example::text, {"fleet.1.compute.clock_ghz=1.5",
-                      "service.trajectory_planning.compute.input_octets=40",
-                      "fleet.1.appear_every=10s", "provider.mec.fails_at=5min",
-                      "provider.mec.returns_at=6min"});
+      example::text,
+      {"fleet.1.compute.clock_ghz=1.5",
+       "service.trajectory_planning.compute.input_octets=40",
+       "fleet.1.appear_every=10s", "fleet.1.fails_at=4min",
+       "provider.mec.fails_at=5min", "provider.mec.returns_at=6min"});
   CHECK(s.fleets[0].compute.clock_ghz == 3);
   CHECK(s.fleets[1].compute.clock_ghz == 1.5);
   CHECK(s.services[0]->options.compute.input_octets == 40);
   CHECK(s.fleets[1].appear_every == std::chrono::seconds{10});
+  CHECK(s.fleets[1].fails_at == std::chrono::minutes{4});
+  CHECK_FALSE(s.fleets[0].fails_at.has_value());
   CHECK(s.providers[0].fails_at == std::chrono::minutes{5});
   CHECK(s.providers[0].returns_at == std::chrono::minutes{6});
   CHECK_FALSE(s.providers[1].fails_at.has_value());

@@ -1,8 +1,8 @@
 // The occluded crossing: who sees whom from where, and what its options do.
+#include "experiments/torture/changed_service.hpp"
 #include "scenario/load.hpp"
 #include "scenario/placement.hpp"
 #include "tests/scenario/whole_run.hpp"
-#include "tests/support/changed_service.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -15,6 +15,7 @@
 
 using namespace sofof;
 using namespace sofof::actors;
+using namespace sofof::experiments::torture;
 using namespace sofof::messages;
 using namespace sofof::scenario;
 using namespace sofof::test;

@@ -1,9 +1,9 @@
 // Whole runs in virtual time, judged by their records.
 #include "actors/offloading/broadcast_listener.hpp"
+#include "experiments/torture/changed_service.hpp"
 #include "scenario/load.hpp"
 #include "scenario/placement.hpp"
 #include "tests/scenario/whole_run.hpp"
-#include "tests/support/changed_service.hpp"
 
 #include <doctest/doctest.h>
 
@@ -15,6 +15,7 @@
 
 using namespace sofof;
 using namespace sofof::actors;
+using namespace sofof::experiments::torture;
 using namespace sofof::messages;
 using namespace sofof::scenario;
 using namespace sofof::test;
@@ -193,6 +194,26 @@ TEST_CASE("a provider that dies is left at once; when it is back, vehicles "
     CHECK((t <= 60s || t >= 90s));
     CHECK((c.session.provider == provider_at(1, 0)) == (t <= 60s));
   }
+}
+
+TEST_CASE("a vehicle whose computer dies comes to rest, and its provider ends "
+          "what runs for it") {
+  const auto records =
+      drive({"duration=100s", "fleet.0.count=1", "fleet.0.fails_at=60s",
+             "provider.0.area_radius_m=2000", "policies.lodm=always",
+             "policies.codm=always", "service.0.planner.name=lane_follow"});
+  CHECK(records.collisions.empty());
+  auto freed = 0;
+  for (const auto& e : records.episodes) {
+    CHECK(e.of == side::provider); // nobody is there to close the other one
+    CHECK(e.ended >= time_point{60s});
+    CHECK(e.ended <= time_point{65s});
+    ++freed;
+  }
+  CHECK(freed == 2); // services
+  REQUIRE_FALSE(records.tracks.empty());
+  CHECK(records.tracks.back().at > time_point{99s});
+  CHECK(records.tracks.back().ego.own.speed_mps == 0);
 }
 
 TEST_CASE("vehicles appear over time, and never on each other") {

@@ -11,6 +11,8 @@
 //   lies time SCENARIO SECONDS           judges honest plans, in virtual time;
 //                                        prints what a plan takes, µs
 #include "actors/services/planning/plan_request.hpp"
+#include "experiments/torture/changed_service.hpp"
+#include "experiments/torture/lying_planning.hpp"
 #include "network/network_address.hpp"
 #include "planners/judges/plan_judge.hpp"
 #include "scenario/hosts.hpp"
@@ -18,7 +20,6 @@
 #include "scenario/load.hpp"
 #include "scenario/placement.hpp"
 #include "tests/scenario/whole_run.hpp"
-#include "tests/support/lying_planning.hpp"
 
 #include <fmt/format.h>
 
@@ -32,6 +33,7 @@
 
 using namespace sofof;
 using namespace sofof::actors;
+using namespace sofof::experiments::torture;
 using namespace sofof::messages;
 using namespace sofof::network;
 using namespace sofof::planners;

@@ -1,4 +1,4 @@
-// A service of the project with a change, for whole runs.
+// A service of the project with a change, for runs in which something is wrong.
 #pragma once
 
 #include "actors/offloading/broadcast_listener.hpp"
@@ -10,7 +10,7 @@
 #include <string_view>
 #include <utility>
 
-namespace sofof::test {
+namespace sofof::experiments::torture {
 
 /// As the real one, but for what `change` makes of it in each run.
 class changed_service final : public actors::service_type {
@@ -68,4 +68,4 @@ private:
   std::shared_ptr<offloading::provider_service> real_;
 };
 
-} // namespace sofof::test
+} // namespace sofof::experiments::torture

@@ -1,9 +1,9 @@
-// A provider that lies about plans or crossings: what vehicles must survive.
-#pragma once
+// A provider that lies about plans or crossings.
+#include "experiments/torture/lying_planning.hpp"
 
+#include "experiments/torture/changed_service.hpp"
 #include "messages/v2x/encoded.hpp"
 #include "messages/v2x/mcm/mcm_content.hpp"
-#include "tests/support/changed_service.hpp"
 #include "world/roads/route_finder.hpp"
 
 #include <algorithm>
@@ -19,38 +19,11 @@
 #include <utility>
 #include <vector>
 
-namespace sofof::test {
+namespace sofof::experiments::torture {
 
 using namespace std::chrono_literals;
 
-/// What a provider may say instead of its plan.
-enum class lie {
-  jump,       ///< It begins 3 m to the left.
-  g100,       ///< It drives 160 m/s.
-  stale,      ///< It is the first one, for ever.
-  ram,        ///< It speeds up by 3.4 m/s² without end.
-  mix,        ///< Even stations brake by 6, odd ones speed up by 3.4 m/s².
-  offroad,    ///< It leaves the lane to the right.
-  oncoming,   ///< It goes over to the opposite lane.
-  brake,      ///< It brakes by 9 m/s² for nothing.
-  stands,     ///< It stops where lanes cross, and stays there.
-  drifts,     ///< It goes to the right by 0.2 m/s, plan by plan.
-  swaps,      ///< It is another vehicle's.
-  oscillates, ///< It speeds up and brakes in turns.
-  replays,    ///< It is an earlier one, with new times.
-  through,    ///< It goes on at 8 m/s or more, whoever comes.
-};
-
-inline constexpr std::array<std::string_view, 14> lie_names{
-    "jump",  "g100",   "stale",  "ram",   "mix",        "offroad", "oncoming",
-    "brake", "stands", "drifts", "swaps", "oscillates", "replays", "through"};
-
-inline std::optional<lie> lie_of(std::string_view name) {
-  const auto found = std::ranges::find(lie_names, name);
-  if (found == lie_names.end())
-    return std::nullopt;
-  return static_cast<lie>(found - lie_names.begin());
-}
+namespace {
 
 /// What the lying functions of one provider know of each other.
 struct liars {
@@ -303,9 +276,17 @@ private:
   std::shared_ptr<liars> all_;
 };
 
-/// @returns the service as it is in vehicles, with providers that lie.
-inline actors::service_type_ptr lying_service(actors::service_type_ptr honest,
-                                              lie what, duration after = 8s) {
+} // namespace
+
+std::optional<lie> lie_of(std::string_view name) {
+  const auto found = std::ranges::find(lie_names, name);
+  if (found == lie_names.end())
+    return std::nullopt;
+  return static_cast<lie>(found - lie_names.begin());
+}
+
+actors::service_type_ptr lying_service(actors::service_type_ptr honest,
+                                       lie what, duration after) {
   const auto all = std::make_shared<liars>();
   all->what = what;
   all->after = after;
@@ -320,4 +301,4 @@ inline actors::service_type_ptr lying_service(actors::service_type_ptr honest,
       });
 }
 
-} // namespace sofof::test
+} // namespace sofof::experiments::torture
