@@ -111,6 +111,8 @@ void provider::expire(const digest_due& x, time_point now) {
     return;
   auto& station = i->second;
   assert(station.is_told && station.requester);
+  assert(station.latest.station == x.station);
+  assert(!station.sessions.empty() || station.told_until > time_point{});
   messages::session_digest digest{setup_.id, x.station, last_session_, {}};
   for (const auto& session : station.sessions)
     digest.running.push_back(session.session);

@@ -162,6 +162,7 @@ void requester::on_digest(const messages::session_digest& digest, peer_id from,
   if (digest.station != setup_.station || i == providers_.end()
       || i->second.peer != from)
     return;
+  assert(i->second.offered_at <= now);
   trace_.add(step::digest_got, digest, now);
   end_unconfirmed(digest, now);
   // What answers an open request may not have come yet.
@@ -206,6 +207,8 @@ void requester::end_unconfirmed(const messages::session_digest& digest,
     const auto is_named =
         std::ranges::count(digest.running, session->session) > 0;
     auto& since = session->unnamed_since;
+    assert(!since || *since <= now);
+    assert(session->accepted <= now);
     if (is_named) {
       session->confirmed = now;
       since.reset();

@@ -5,8 +5,46 @@
 
 #include <cassert>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace sofof::offloading {
+
+namespace {
+
+std::vector<messages::traced_service>
+without_sessions(const std::vector<messages::service_name>& names) {
+  std::vector<messages::traced_service> all;
+  for (const auto& name : names)
+    all.push_back({name});
+  return all;
+}
+
+/// What follows a verdict that cannot be meant for its vehicle counts for
+/// nothing.
+std::vector<messages::traced_service>
+sound_verdicts(const messages::service_response& x) {
+  std::vector<messages::traced_service> all;
+  for (const auto& [session, accepted, why, instead] : x.verdicts) {
+    if (accepted
+        && (session.provider != x.provider || session.station != x.station
+            || !session.is_remote()))
+      break;
+    all.push_back({session.service, accepted ? session.counter : 0});
+  }
+  assert(all.size() <= x.verdicts.size());
+  return all;
+}
+
+std::vector<messages::traced_service>
+named_in(const messages::session_digest& x) {
+  std::vector<messages::traced_service> all;
+  for (const auto& session : x.running)
+    all.push_back({session.service, session.counter});
+  return all;
+}
+
+} // namespace
 
 void tracer::keep(messages::trace_record&& x) {
   assert(keep_);
@@ -17,60 +55,38 @@ void tracer::keep(messages::trace_record&& x) {
 
 void tracer::add(step what, const messages::service_offer& x, station_id to,
                  time_point now) {
-  if (!keep_)
-    return;
-  messages::trace_record made{
-      .at = now, .what = what, .provider = x.provider, .station = to};
-  for (const auto& name : x.services)
-    made.services.push_back({name});
-  keep(std::move(made));
+  if (keep_)
+    keep({.at = now,
+          .what = what,
+          .provider = x.provider,
+          .station = to,
+          .services = without_sessions(x.services)});
 }
 
 void tracer::add(step what, const messages::service_request& x,
                  time_point now) {
-  if (!keep_)
-    return;
-  messages::trace_record made{.at = now,
-                              .what = what,
-                              .provider = x.provider,
-                              .station = x.station,
-                              .number = x.number};
-  for (const auto& name : x.services)
-    made.services.push_back({name});
-  keep(std::move(made));
+  if (keep_)
+    keep({now,
+          {},
+          0,
+          what,
+          x.provider,
+          x.station,
+          x.number,
+          without_sessions(x.services)});
 }
 
 void tracer::add(step what, const messages::service_response& x,
                  time_point now) {
-  if (!keep_)
-    return;
-  messages::trace_record made{.at = now,
-                              .what = what,
-                              .provider = x.provider,
-                              .station = x.station,
-                              .number = x.number};
-  for (const auto& v : x.verdicts) {
-    const auto& s = v.session;
-    if (v.accepted
-        && (s.provider != x.provider || s.station != x.station
-            || !s.is_remote()))
-      break; // it cannot be meant, nor can what follows
-    made.services.push_back({s.service, v.accepted ? s.counter : 0});
-  }
-  keep(std::move(made));
+  if (keep_)
+    keep(
+        {now, {}, 0, what, x.provider, x.station, x.number, sound_verdicts(x)});
 }
 
 void tracer::add(step what, const messages::session_digest& x, time_point now) {
-  if (!keep_)
-    return;
-  messages::trace_record made{.at = now,
-                              .what = what,
-                              .provider = x.provider,
-                              .station = x.station,
-                              .number = x.last_counter};
-  for (const auto& session : x.running)
-    made.services.push_back({session.service, session.counter});
-  keep(std::move(made));
+  if (keep_)
+    keep(
+        {now, {}, 0, what, x.provider, x.station, x.last_counter, named_in(x)});
 }
 
 void tracer::add(step what, const messages::service_end& x, time_point now) {
@@ -79,28 +95,24 @@ void tracer::add(step what, const messages::service_end& x, time_point now) {
 
 void tracer::add(step what, const messages::session_id& x, time_point now,
                  std::string_view detail, std::uint64_t number) {
-  if (!keep_)
-    return;
-  keep({.at = now,
-        .what = what,
-        .provider = x.provider,
-        .station = x.station,
-        .number = number,
-        .services = {{x.service, x.counter}},
-        .detail = std::string{detail}});
+  if (keep_)
+    keep({now,
+          {},
+          0,
+          what,
+          x.provider,
+          x.station,
+          number,
+          {{x.service, x.counter}},
+          std::string{detail}});
 }
 
 void tracer::add(step what, provider_id provider, station_id station,
                  time_point now, std::string_view detail,
                  std::uint64_t number) {
-  if (!keep_)
-    return;
-  keep({.at = now,
-        .what = what,
-        .provider = provider,
-        .station = station,
-        .number = number,
-        .detail = std::string{detail}});
+  if (keep_)
+    keep(
+        {now, {}, 0, what, provider, station, number, {}, std::string{detail}});
 }
 
 } // namespace sofof::offloading

@@ -76,12 +76,17 @@ struct client_diary {
   std::vector<entry> services;
   std::vector<std::string> broken; // promises
   experiments::conformance::trace_checker trace{duration{0}};
+  bool ends = false; // its client is told nothing more
 
   void on_record(const messages::record& x) {
-    if (const auto* step = std::get_if<messages::trace_record>(&x))
+    if (const auto* step = std::get_if<messages::trace_record>(&x)) {
       trace.add(*step, {0, trace.steps() + 1});
+      ends = ends
+             || (step->by == messages::trace_part::requester
+                 && step->what == messages::trace_step::shut_down);
+    }
     const auto* event = std::get_if<messages::event_record>(&x);
-    if (event && event->what == messages::event_type::switched)
+    if (event && event->what == messages::event_type::switched && !ends)
       ++of(event->service).told;
   }
 

@@ -22,6 +22,7 @@ struct memory_sink final : messages::record_sink {
   std::vector<messages::claim_record> claims;
   std::vector<messages::plan_switch_record> plan_switches;
   std::vector<messages::air_record> air;
+  std::vector<messages::trace_record> steps;
 
   void on_record(const messages::record& x) override {
     std::visit(
@@ -46,7 +47,8 @@ struct memory_sink final : messages::record_sink {
             [this](const messages::plan_switch_record& r) {
               plan_switches.push_back(r);
             },
-            [this](const messages::air_record& r) { air.push_back(r); }},
+            [this](const messages::air_record& r) { air.push_back(r); },
+            [this](const messages::trace_record& r) { steps.push_back(r); }},
         x);
   }
 };
