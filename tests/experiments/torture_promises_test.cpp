@@ -44,6 +44,7 @@ lodm = "always"
 codm = "always"
 [record]
 tracks = false
+trace = true
 )";
 
 const scenario::scenario_definition& the_scene() {

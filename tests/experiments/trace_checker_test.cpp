@@ -21,7 +21,7 @@ constexpr station_id car = 101;
 const std::vector<traced_service> none{};
 const std::vector<traced_service> plan{{"plan", 0}};
 const std::vector<traced_service> session{{"plan", 7}};
-const std::vector<traced_service> first{{"plan", 1}};
+const std::vector<traced_service> first_session{{"plan", 1}};
 
 /// A trace that is written step by step.
 struct traced {
@@ -53,7 +53,7 @@ struct traced {
                std::move(detail), number);
   }
   traced& provider(trace_step what,
-                   std::vector<traced_service> services = first,
+                   std::vector<traced_service> services = first_session,
                    std::string detail = {}, std::uint64_t number = 1) {
     return add(trace_part::provider, what, std::move(services),
                std::move(detail), number);
@@ -94,7 +94,7 @@ struct running_provider : traced {
     provider(trace_step::met, none);
     provider(trace_step::offer_sent, plan);
     provider(trace_step::request_got, plan);
-    provider(trace_step::begun, first, "inside");
+    provider(trace_step::begun, first_session, "inside");
     provider(trace_step::response_sent);
   }
 };
@@ -248,8 +248,8 @@ TEST_CASE_FIXTURE(running_provider, "a provider that tells of what runs, ends "
   provider(trace_step::digest_sent);
   pass(200ms);
   provider(trace_step::heard, none, "outside");
-  provider(trace_step::closed, first, "left_area");
-  provider(trace_step::end_sent, first, "left_area");
+  provider(trace_step::closed, first_session, "left_area");
+  provider(trace_step::end_sent, first_session, "left_area");
   for (int k = 0; k < 5; ++k) {
     pass(k == 0 ? 300ms : 500ms);
     provider(trace_step::digest_sent, none);
@@ -369,7 +369,7 @@ TEST_CASE_FIXTURE(traced, "what is got has been sent") {
   vehicle(trace_step::offer_got, plan);
   vehicle(trace_step::offer_got, plan); // a copy
   CHECK(checker.finish().empty());
-  vehicle(trace_step::offer_got, first); // of other content
+  vehicle(trace_step::offer_got, first_session); // of other content
   CHECK(broken() == rules{"M1"});
 }
 

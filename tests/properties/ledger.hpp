@@ -72,6 +72,7 @@ struct client_diary {
     std::map<messages::session_id, time_point> newest_of; // in use since
     bool any_result = false;
     int changes = 0, told = 0; // of its source: that came, in events
+    bool told_remote = false;
   };
   std::vector<entry> services;
   std::vector<std::string> broken; // promises
@@ -86,8 +87,10 @@ struct client_diary {
                  && step->what == messages::trace_step::shut_down);
     }
     const auto* event = std::get_if<messages::event_record>(&x);
-    if (event && event->what == messages::event_type::switched && !ends)
-      ++of(event->service).told;
+    if (event && event->what == messages::event_type::switched && !ends) {
+      auto& e = of(event->service); // or from one provider to another
+      e.told += std::exchange(e.told_remote, event->remote) != event->remote;
+    }
   }
 
   /// Everybody has gone.
@@ -113,7 +116,7 @@ struct client_diary {
     if (e.remote == remote)
       broken.push_back("a source was chosen that was in use already");
     e.remote = remote;
-    ++e.changes;
+    e.changes += !ends;
     e.newest_of.clear();
   }
 
