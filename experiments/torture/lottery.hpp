@@ -61,9 +61,11 @@ public:
     for (const auto& [what, weight] : all)
       sum += weight;
     auto left = sum * stream_.uniform(next_++);
-    for (const auto& [what, weight] : all)
-      if ((left -= weight) < 0)
+    for (const auto& [what, weight] : all) {
+      left -= weight;
+      if (left < 0)
         return what;
+    }
     return all.back().first;
   }
 

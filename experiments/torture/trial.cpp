@@ -133,7 +133,9 @@ trial::trial(const tried_scenario& what, fs::path folder)
   fs::remove_all(folder_);
   fs::create_directories(folder_);
   std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) == 0 && (child_ = fork()) == 0)
+  if (pipe2(ends.data(), O_CLOEXEC) == 0)
+    child_ = fork();
+  if (child_ == 0)
     run_in_child(what, folder_, ends[1]);
   if (child_ < 0)
     throw std::runtime_error{
