@@ -116,7 +116,7 @@ TEST_CASE_TEMPLATE("whatever a link does: with two providers at once, with one "
                    World, actor_world, library_world) {
   dice random{1848};
   int episodes = 0;
-  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     auto of = with_two(seed % 2 == 0 ? 0ms : 20ms);
     if (seed % 3 == 0)
       of.provider_policy = [] { return std::make_unique<patient>(); };
@@ -125,7 +125,7 @@ TEST_CASE_TEMPLATE("whatever a link does: with two providers at once, with one "
         from_seconds(random.between(0.001, 1.0))};
     episodes += live<World>(seed, faults, 3, std::nullopt, of).remote_episodes;
   }
-  CHECK(episodes > 300);
+  CHECK(episodes > 100);
 }
 
 TEST_CASE_TEMPLATE("when the provider crashes, its vehicles go on locally at "
