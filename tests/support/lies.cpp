@@ -13,6 +13,7 @@
 #include "actors/services/planning/plan_request.hpp"
 #include "experiments/torture/changed_service.hpp"
 #include "experiments/torture/lying_planning.hpp"
+#include "messages/etsi/uper.hpp"
 #include "network/network_address.hpp"
 #include "planners/judges/plan_judge.hpp"
 #include "scenario/hosts.hpp"
@@ -32,6 +33,7 @@
 #include <string_view>
 
 using namespace sofof;
+using namespace std::chrono_literals;
 using namespace sofof::actors;
 using namespace sofof::experiments::torture;
 using namespace sofof::messages;
