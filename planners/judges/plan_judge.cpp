@@ -242,18 +242,18 @@ bool plan_judge::is_repeated(const judged_plan& x) {
   const auto fingerprint = static_cast<std::uint32_t>(x.fingerprint);
   if (fingerprint == 0)
     return false;
+  assert(said_.size() == begins_.size());
   // Mostly it is new: `count`, which the compiler vectorises, takes half the
   // time of `find` then.
-  const auto known = std::ranges::count(said_, fingerprint) > 0;
-  if (known) {
+  auto repeats = false;
+  if (std::ranges::count(said_, fingerprint) > 0) {
     const auto before = std::ranges::find(said_, fingerprint);
-    const auto at = static_cast<std::size_t>(before - said_.begin());
-    assert(at < begins_.size());
-    const auto apart_s = to_seconds(x.plan.start - begins_[at]);
-    if (std::abs(apart_s) <= limits.same_time_s)
-      return false; // it has come twice
-  }
-  if (!known) {
+    auto& begins = begins_[static_cast<std::size_t>(before - said_.begin())];
+    const auto apart_s = std::abs(to_seconds(x.plan.start - begins));
+    repeats = apart_s > limits.same_time_s && apart_s < limits.not_back_s;
+    if (apart_s >= limits.not_back_s)
+      begins = x.plan.start;
+  } else {
     if (said_.size() < limits.remembered) {
       said_.resize(limits.remembered);
       begins_.resize(limits.remembered);
@@ -263,7 +263,7 @@ bool plan_judge::is_repeated(const judged_plan& x) {
     begins_[next_said_] = x.plan.start;
     next_said_ = (next_said_ + 1) % limits.remembered;
   }
-  return known && x.own.speed_mps > limits.moves_mps
+  return repeats && x.own.speed_mps > limits.moves_mps
          && x.plan.points.front().speed_mps > limits.moves_mps;
 }
 

@@ -100,7 +100,8 @@ struct plan_limits {
   double forgiven_share = 0.05;   ///< Of the time that passes meanwhile.
 
   double longest_pause_s = 0.2;  ///< Between two results in a row.
-  std::size_t remembered = 1200; ///< Results; a minute, at 20 a second.
+  std::size_t remembered = 256;  ///< Results.
+  double not_back_s = 5.0;       ///< Nobody is back at a place so soon.
   double same_time_s = 0.002;    ///< What begins then is the same plan.
   double moves_mps = 1.0;        ///< Who is slower may be sent a plan again.
 };
@@ -113,7 +114,8 @@ struct plan_limits {
 ///
 /// * `place`: it begins elsewhere than the vehicle is, or at another speed.
 /// * `age`, `length`, `repetition`: it is old, ends within 2.5 s while it
-///   drives, or was sent before with other times.
+///   drives, or was sent within the last 5 s with other times. Later it may be
+///   good again: the vehicle has come round a block.
 /// * `road`: the body leaves the lane by much, or a little within a second.
 /// * `speed`, `along`, `across`: too fast, or too strong an acceleration.
 /// * `stop_line`: soon the vehicle could not stop before the line any more.

@@ -184,6 +184,16 @@ TEST_CASE_FIXTURE(judged_drive, "a plan that was sent before is refused while "
   CHECK(ask(plan(0)).usable);
 }
 
+TEST_CASE_FIXTURE(judged_drive, "the plan of the lap before is used, once the "
+                                "car has come round the block") {
+  fingerprint = 7;
+  CHECK(ask(plan(0)).usable);
+  now += 20s;
+  CHECK(ask(plan(0)).usable);
+  now += 50ms;
+  CHECK(!ask(plan(0)).usable);
+}
+
 TEST_CASE_FIXTURE(judged_drive, "a plan off the lane is refused long before "
                                 "the car is there") {
   CHECK(refused_within(5s, 0, -0.06) == "road");
