@@ -10,7 +10,9 @@
 namespace sofof::planners {
 namespace {
 
-constexpr double same_drive_m = 1.0;
+// A plan that is not driven, as that of a provider that stands by, may depart
+// from the vehicle by so much; `plan_limits::same_place_m` is more.
+constexpr double same_drive_m = 0.5;
 constexpr double same_speed_mps = 1.0;
 constexpr double max_lead_age_s = 0.5;
 

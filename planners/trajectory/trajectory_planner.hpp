@@ -78,7 +78,7 @@ public:
 };
 
 /// Where a new plan begins: where `previous` covers `now` and agrees with the
-/// input within 1 m and 1 m/s, at its point for `now`, so that plans join
+/// input within 0.5 m and 1 m/s, at its point for `now`, so that plans join
 /// without a jolt; else at the input, moved on at constant acceleration. Of an
 /// input that no car can have, only what is possible counts. Own motion only.
 planning_input joined(const world::route& way, time_point now,

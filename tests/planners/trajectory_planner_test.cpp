@@ -71,6 +71,7 @@ TEST_CASE("a plan that is not followed is not gone on from") {
     CHECK(start.speed_mps == own.speed_mps);
   };
   check_left(at(plan_time, 104, 10), before);     // too far on
+  check_left(at(plan_time, 103.1, 10), before);   // likewise
   check_left(at(plan_time, 102.5, 11.5), before); // too fast
   check_left(at(plan_time, 102.5, 10), {});       // no plan
   check_left(at(plan_time, 102.5, 10),
