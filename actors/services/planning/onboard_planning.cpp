@@ -28,6 +28,8 @@ public:
       return {};
     auto from = planners::made_possible(request->from);
     const auto in_use = input.in_use.as<world::trajectory>();
+    if (std::exchange(drives_by_another_, false))
+      cycle_->forget_plan();
     const auto& own = cycle_->plan();
     if (in_use && in_use->is_sound()
         && (own.empty() || in_use->start > own.start))
@@ -51,6 +53,7 @@ public:
   }
 
   void observe(time_point now, const messages::service_input& input) override {
+    drives_by_another_ = true;
     if (const auto request = input.what.as<plan_request>())
       take_in(now, *request);
   }
@@ -83,6 +86,7 @@ private:
   planners::object_tracker model_;
   std::optional<time_point> taken_in_;
   std::optional<plan_cycle> cycle_;
+  bool drives_by_another_ = false; // source, so that the own plan is an old one
 };
 
 } // namespace

@@ -35,6 +35,9 @@ public:
     plan_ = other;
   }
 
+  /// Nobody drives the last plan any more.
+  void forget_plan() { plan_.points.clear(); }
+
   /// Plans from here, given what is known of the others. `from.others` is
   /// filled in, but for what it says of stopping and of what was agreed.
   planners::plan_report run(time_point now, planners::planning_input from,
