@@ -130,10 +130,11 @@ foreseen_bodies::first_touch(std::span<const place_in_time> motion,
   assert(std::ranges::is_sorted(motion, {}, &place_in_time::t_s));
   assert(half_corridor_m_ >= 0);
   for (const auto& p : motion) {
-    if (p.speed_mps < stands_mps)
+    if (p.speed_mps < rests_mps)
       continue;
+    const auto stands = p.speed_mps < stands_mps;
     for (const auto& x : boxes_)
-      if (x.counts && touches(x, p, car))
+      if (x.counts && !(x.crosses && stands) && touches(x, p, car))
         return touch{p.t_s, x.crosses};
   }
   return std::nullopt;

@@ -54,8 +54,8 @@ public:
   };
 
   /// @returns when a vehicle that moves touches one of them; nullopt: never.
-  /// Whoever stands is touched by others, and touches nobody. Of who crosses
-  /// only the core is touched: it may be turning.
+  /// Whoever rests touches nobody, and who nearly does touches nobody that
+  /// crosses. Of who crosses only the core is touched: it may be turning.
   std::optional<touch> first_touch(std::span<const place_in_time> motion,
                                    const world::vehicle_params& car) const;
 
@@ -86,8 +86,10 @@ private:
   static constexpr double near_beside_m = 1.0;
   /// Who comes onto the way this soon is, too.
   static constexpr double soon_s = 4;
-  /// Who is as slow as this is hit by others, and hits nobody.
+  /// Who is as slow as this is hit by who crosses, and does not hit it.
   static constexpr double stands_mps = 0.3;
+  /// Who is as slow as this hits nobody.
+  static constexpr double rests_mps = 0.01;
 
   struct box {
     double s_m, d_m;                    // of its middle

@@ -292,6 +292,16 @@ TEST_CASE_FIXTURE(judged_drive, "a plan into a standing car is refused while "
   CHECK(room_m > speed_mps * speed_mps / (2 * 6) + 0.3 * speed_mps);
 }
 
+TEST_CASE_FIXTURE(judged_drive, "a plan that creeps into a standing car is "
+                                "refused before it is there") {
+  const auto room_m = 1.0;
+  const auto rear_m = s_m + vehicle_params{}.front_m + room_m;
+  see_car(rear_m + 2.25, 0, 0, 0);
+  speed_mps = 0;
+  CHECK(refused_of([this] { return plan(1, 0, 0.2); }, 20s) == "others");
+  CHECK(s_m + vehicle_params{}.front_m < rear_m);
+}
+
 TEST_CASE_FIXTURE(judged_drive, "who comes the other way, in its own lane, is "
                                 "no reason to refuse a plan") {
   see_car(260, 3.5, std::numbers::pi, 14);
