@@ -25,6 +25,11 @@ T required(std::optional<T> file, std::string_view name) {
   return std::move(*file);
 }
 
+/// Checks of plans by what only the vehicle, or only the provider, may see: a
+/// body, or that there is none.
+constexpr std::array<std::string_view, 3> may_not_be_known{"others", "braking",
+                                                           "standing"};
+
 /// Of sums of times with nine decimals.
 constexpr double rounding_of_sums_s = 1e-6;
 
@@ -94,9 +99,23 @@ void check_safety(const finished_run& run, broken_promises& to) {
   same("safety.off_road_s", off_road_s);
 }
 
+void check_belief(const finished_run& run, broken_promises& to) {
+  if (run.has_liars || run.has_ghosts)
+    return;
+  for (const auto& e : run.events) {
+    const auto what = e.detail.substr(0, e.detail.find(' '));
+    if (e.what == "implausible"
+        && std::ranges::find(may_not_be_known, what) == may_not_be_known.end())
+      to.push_back({"believed",
+                    fmt::format("station {} took {} for a liar at {:.6f} s: {}",
+                                e.of.station, e.of.provider, e.t_s, e.detail)});
+  }
+}
+
 broken_promises check(const finished_run& run) {
   broken_promises all;
   check_safety(run, all);
+  check_belief(run, all);
   check_sources(run, all);
   check_ledger(run, all);
   check_sums(run, all);

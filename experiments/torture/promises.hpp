@@ -56,6 +56,8 @@ using broken_promises = std::vector<broken_promise>;
 /// @{
 /// Never without a fresh plan, never off the road, no collision.
 void check_safety(const finished_run& run, broken_promises& to);
+/// Nobody is taken for a liar who is none, but for what it cannot see.
+void check_belief(const finished_run& run, broken_promises& to);
 /// Used results are of the source in use, in order, within their limits, and
 /// without gaps.
 void check_sources(const finished_run& run, broken_promises& to);

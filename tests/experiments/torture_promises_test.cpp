@@ -208,3 +208,23 @@ TEST_CASE("a moment without a fresh plan is found") {
   CHECK(p.breaks("fresh_plan"));
   CHECK(p.breaks("adds_up")); // the summary does not know of it
 }
+
+TEST_CASE("an honest provider that is taken for a liar is found, unless for "
+          "what it may not see") {
+  const auto objects_to = [](std::string_view why) {
+    return [why](lines& all) {
+      const auto end = first(all, R"({"t_s":)");
+      auto line = *end;
+      const auto from = line.find(R"("what":")") + 8;
+      line.replace(from, line.find('"', from) - from, "implausible");
+      const auto detail = line.find(R"("detail":")") + 10;
+      line.replace(detail, line.find('"', detail) - detail, why);
+      all.insert(end, line);
+    };
+  };
+  planted p;
+  p.change("events.jsonl", objects_to("others value=0.8 limit=2.5"));
+  CHECK(!p.breaks("believed"));
+  p.change("events.jsonl", objects_to("place value=1.1 limit=1.0"));
+  CHECK(p.breaks("believed"));
+}
