@@ -326,8 +326,7 @@ std::optional<foreseen_bodies::touch> plan_judge::touch(const judged_plan& x,
   const auto touched = first_touch(x, x.plan, limits.horizon_s, 0);
   // Else there is time to see what it does next.
   const auto soon =
-      touched
-      && first_touch(x, x.plan, reaction_s(x), limits.avoiding_mps2);
+      touched && first_touch(x, x.plan, reaction_s(x), limits.avoiding_mps2);
   if (!soon)
     return std::nullopt;
   const auto braking_avoids = !first_touch(x, x.plan, 0, limits.avoiding_mps2);

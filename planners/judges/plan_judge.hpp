@@ -100,11 +100,11 @@ struct plan_limits {
   double most_lost_s = 1.2;       ///< As if waiting while the own plans drive.
   double forgiven_share = 0.05;   ///< Of the time that passes meanwhile.
 
-  double longest_pause_s = 0.2;  ///< Between two results in a row.
-  std::size_t remembered = 256;  ///< Results.
-  double not_back_s = 5.0;       ///< Nobody is back at a place so soon.
-  double same_time_s = 0.002;    ///< What begins then is the same plan.
-  double moves_mps = 1.0;        ///< Who is slower may be sent a plan again.
+  double longest_pause_s = 0.2; ///< Between two results in a row.
+  std::size_t remembered = 256; ///< Results.
+  double not_back_s = 5.0;      ///< Nobody is back at a place so soon.
+  double same_time_s = 0.002;   ///< What begins then is the same plan.
+  double moves_mps = 1.0;       ///< Who is slower may be sent a plan again.
 };
 
 /// Judges the plans that one provider makes for one vehicle, one after the
