@@ -101,6 +101,7 @@ void requester_rules::add(const step& x, trace_place at) {
 
 void requester_rules::on_offer(const step& x) {
   auto& from = providers_[x.provider];
+  from.is_lost = false;
   from.offered.clear();
   for (const auto& s : x.services)
     from.offered[s.name] = x.at;
@@ -151,7 +152,7 @@ void requester_rules::on_request_over(const step& x) {
 
 void requester_rules::on_response(const step& x) {
   const auto known = providers_.find(x.provider);
-  if (known == providers_.end())
+  if (known == providers_.end() || known->second.is_lost)
     return; // it cannot be told anything
   auto& from = known->second;
   from.accepted.clear();
@@ -204,7 +205,7 @@ void requester_rules::on_first_data(const step& x) {
 void requester_rules::on_digest(const step& x) {
   auto& from = providers_[x.provider];
   judge_unnamed(from, x);
-  if (from.open_request
+  if (from.open_request || from.is_lost
       || (from.corrected
           && x.at - *from.corrected < protocol::unknown_result_period))
     return;
@@ -243,7 +244,7 @@ void requester_rules::on_unknown_result(const step& x) {
   const auto from = providers_.find(x.provider);
   if (find(x))
     refute("V15 results of a session are not refused", session_in(x));
-  if (from == providers_.end())
+  if (from == providers_.end() || from->second.is_lost)
     return;
   auto& last = from->second.complained;
   if (last && x.at - *last < protocol::unknown_result_period)
@@ -277,6 +278,7 @@ void requester_rules::on_closed(const step& x) {
 
 void requester_rules::on_lost(const step& x) {
   auto& lost = providers_[x.provider];
+  lost.is_lost = true;
   lost.open_request.reset();
   lost.requested.clear();
   lost.offered.clear();

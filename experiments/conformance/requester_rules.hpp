@@ -46,6 +46,7 @@ private:
     std::optional<time_point> complained, corrected;
     std::map<service, session> sessions;
     std::map<service, time_point> cools_until;
+    bool is_lost = false; // and has offered nothing since
   };
 
   void on_offer(const step& x);

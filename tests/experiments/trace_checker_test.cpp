@@ -211,6 +211,17 @@ TEST_CASE_FIXTURE(traced, "a late acceptance is ended") {
   CHECK(broken() == rules{"V6"});
 }
 
+TEST_CASE_FIXTURE(traced, "who is lost need not be told that its acceptance "
+                          "is late") {
+  vehicle(trace_step::offer_got, plan);
+  vehicle(trace_step::request_sent, plan);
+  vehicle(trace_step::peer_lost, none);
+  vehicle(trace_step::response_got, session);
+  pass(1ms);
+  vehicle(trace_step::offer_got, plan);
+  CHECK(broken().empty());
+}
+
 TEST_CASE_FIXTURE(running_vehicle, "two digests that do not name a session end "
                                    "it, and a copy of the first one does not") {
   vehicle(trace_step::first_data);
