@@ -5,6 +5,7 @@
 #include "apps/program.hpp"
 #include "apps/signals.hpp"
 #include "base/input_error.hpp"
+#include "experiments/torture/draw.hpp"
 #include "scenario/run.hpp"
 
 #include <fmt/format.h>
@@ -39,7 +40,7 @@ struct torture_arguments {
   std::optional<std::string> seeds, part;
   std::optional<double> hours;
   unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
-  bool quiet = false;
+  bool print = false, quiet = false;
 
   /// @returns "A-B" as two numbers.
   static std::pair<std::uint64_t, std::uint64_t>
@@ -87,6 +88,10 @@ struct torture_arguments {
   }
 
   int obey() const {
+    if (print) {
+      std::cout << experiments::torture::draw(seed.value());
+      return static_cast<int>(scenario::run_outcome::good);
+    }
     const auto done =
         file.empty()
             ? experiments::torture::try_seeds(given(), interrupted, std::cout)
@@ -141,6 +146,9 @@ void add_torture(CLI::App& app, int& exit_code) {
                    "Folder of the log of seeds and of findings (default "
                    "results/torture)")
       ->type_name("DIR");
+  command->add_flag("--print", args->print,
+                    "Print the scenario of --seed, and try nothing")
+      ->needs(seed);
   command->add_flag("--quiet", args->quiet, "No progress");
   command->footer("Example:\n  sofof torture --hours 500 --shard 1/4");
   command->callback([args, &exit_code] {

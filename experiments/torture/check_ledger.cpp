@@ -81,12 +81,14 @@ std::vector<two_sides> sessions_of(const finished_run& run) {
   return list;
 }
 
-double late_s(const two_sides& x, const troubles& known) {
+double late_s(const finished_run& run, const two_sides& x,
+              const troubles& known) {
   const auto a = x.requester.front()->ended_s, b = x.provider.front()->ended_s;
   const auto found = known.find({x.of.provider, x.of.station});
   static const std::vector<double> none;
-  return calm_within(found == known.end() ? none : found->second,
-                     std::min(a, b), std::max(a, b));
+  const auto calm_s = calm_within(found == known.end() ? none : found->second,
+                                  std::min(a, b), std::max(a, b));
+  return std::max(0.0, calm_s - longest_wait_s(run, x.of.provider));
 }
 
 void check_ledger(const finished_run& run, broken_promises& to) {
@@ -117,13 +119,12 @@ void check_ledger(const finished_run& run, broken_promises& to) {
                          "to {:.3f} s at the provider",
                          who, p.accepted_s, p.ended_s)});
     } else if (!x.provider.empty())
-      if (const auto late = late_s(x, known);
-          late > longest_s + longest_wait_s(run, x.of.provider))
+      if (const auto late = late_s(run, x, known); late > longest_s)
         to.push_back(
             {"closed_in_time",
              fmt::format("{} was closed at {:.3f} s by the vehicle and at "
-                         "{:.3f} s by the provider, though the link carried "
-                         "for {:.3f} s in between",
+                         "{:.3f} s by the provider, though the link carried, "
+                         "and no message waited, for {:.3f} s in between",
                          who, x.requester.front()->ended_s,
                          x.provider.front()->ended_s, late)});
   }

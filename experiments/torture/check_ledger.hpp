@@ -33,7 +33,9 @@ std::vector<two_sides> sessions_of(const finished_run& run);
 
 /// @param x  Both sides have closed it.
 /// @returns the longest time for which the link carried, and one side had
-/// closed the session and the other had not.
-double late_s(const two_sides& x, const troubles& known);
+/// closed the session and the other had not; less what messages waited at most
+/// for a full cell.
+double late_s(const finished_run& run, const two_sides& x,
+              const troubles& known);
 
 } // namespace sofof::experiments::torture

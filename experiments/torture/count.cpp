@@ -122,7 +122,7 @@ tally count(const finished_run& run) {
   for (const auto& x : sessions_of(run))
     if (!x.requester.empty() && !x.provider.empty()) {
       ++all[counted::sessions];
-      all[counted::late_2_s] += late_s(x, known) > late_limit_s;
+      all[counted::late_2_s] += late_s(run, x, known) > late_limit_s;
     }
   count_messages(run, all);
   for (const auto& e : run.events)

@@ -19,7 +19,7 @@ using weighted = std::pair<std::string_view, double>;
 
 /// Vehicle hours are dear with al_ilqr: so many runs have it, which is more
 /// than half of the hours.
-constexpr double share_of_al_ilqr = 0.56;
+constexpr double share_of_al_ilqr = 0.6;
 
 drawn_town draw_town(lottery of) {
   drawn_town town;
@@ -86,7 +86,7 @@ std::string draw_v2x(lottery of) {
 std::string draw_planning(lottery of) {
   const auto is_dear = of.happens(share_of_al_ilqr);
   std::string text = "\n[[service]]\nname = \"trajectory_planning\"\n";
-  const auto period_ms = of.happens(is_dear ? 0.65 : 0.3) ? 100 : 50;
+  const auto period_ms = of.happens(is_dear ? 0.85 : 0.6) ? 100 : 50;
   if (period_ms == 100) // else a single loss would end an episode
     text += "period = \"100ms\"\nmax_interarrival = \"200ms\"\n";
   else if (of.happens(0.5))
