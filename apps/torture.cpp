@@ -146,8 +146,9 @@ void add_torture(CLI::App& app, int& exit_code) {
                    "Folder of the log of seeds and of findings (default "
                    "results/torture)")
       ->type_name("DIR");
-  command->add_flag("--print", args->print,
-                    "Print the scenario of --seed, and try nothing")
+  command
+      ->add_flag("--print", args->print,
+                 "Print the scenario of --seed, and try nothing")
       ->needs(seed);
   command->add_flag("--quiet", args->quiet, "No progress");
   command->footer("Example:\n  sofof torture --hours 500 --shard 1/4");
