@@ -27,6 +27,23 @@ constexpr double gets_going_mps2 = 1.25;
 constexpr double member_stops_mps2 = 2, member_decides_s = 0.5,
                  member_spare_m = 1;
 
+/// Between the lines of two that come to one crossing.
+constexpr double crossing_size_m = 20;
+
+double stopping_m(double speed_mps) {
+  return speed_mps * (member_decides_s + speed_mps / (2 * member_stops_mps2))
+         + member_spare_m;
+}
+
+/// @returns how fast a plan begins; nullopt if it does not tell.
+std::optional<double> first_speed_mps(const claimed_drive& plan) {
+  if (plan.bodies.size() < 2)
+    return std::nullopt;
+  assert(plan.step > duration{});
+  return distance_m(plan.bodies[0].centre, plan.bodies[1].centre)
+         / to_seconds(plan.step);
+}
+
 /// @returns when a drive is at a place; nullopt if it does not come there.
 std::optional<time_point> time_at(const world::trajectory& drive, double s_m) {
   assert(std::isfinite(s_m));
@@ -55,10 +72,7 @@ void crossing_member::advise(time_point now, const world::trajectory& drive) {
 }
 
 bool crossing_member::can_stop() const {
-  const auto v = own_.speed_mps;
-  return own_.line_m - own_.s_m - car_.front_m
-         > v * (member_decides_s + v / (2 * member_stops_mps2))
-               + member_spare_m;
+  return own_.line_m - own_.s_m - car_.front_m > stopping_m(own_.speed_mps);
 }
 
 std::optional<time_point>
@@ -116,13 +130,26 @@ claimed_drive crossing_member::claim_of(const world::trajectory& drive) const {
   return claim;
 }
 
+/// @returns whether one that is there, with this plan, may claim what the own
+/// claim overlaps.
+bool crossing_member::is_near(const claimed_drive& plan, point from) const {
+  assert(own_.speed_mps >= 0);
+  const auto claims_from_m = [this](double speed_mps) {
+    return std::max(speed_mps * to_seconds(rules_.claims_before),
+                    stopping_m(speed_mps));
+  };
+  const auto other_mps = first_speed_mps(plan).value_or(own_.speed_mps);
+  const auto both_m = claims_from_m(own_.speed_mps) + claims_from_m(other_mps)
+                      + crossing_size_m;
+  return distance_m(from, own_.at) < std::max(rules_.near_m, both_m);
+}
+
 void crossing_member::on_report(time_point now, const crossing_claim& told,
                                 const claimed_drive& plan, point from) {
   if (told.who == me_)
     return;
   assert(std::isfinite(from.x_m) && std::isfinite(from.y_m));
-  const auto matters = distance_m(from, own_.at) < rules_.near_m;
-  book_.on_report(now, told, matters);
+  book_.on_report(now, told, is_near(plan, from));
   follow_claim(now);
   auto x = std::ranges::lower_bound(told_, told.who, {},
                                     [](const heard& h) { return h.is.who; });

@@ -38,7 +38,9 @@ public:
     duration told = std::chrono::seconds{28}; ///< Of a drive, at most.
     duration advice_holds = std::chrono::milliseconds{150};
     double late_s = 0.35; ///< Later or sooner than its drive, it gives it up.
-    double near_m = 150;  ///< Others that are farther away do not matter.
+    /// Others that are farther away do not matter, unless both are so fast that
+    /// they may claim there already.
+    double near_m = 150;
   };
 
   crossing_member(station_id me, const world::vehicle_params& car)
@@ -100,6 +102,7 @@ private:
   bool is_kept(time_point now, const world::trajectory& drive) const;
   bool is_held_up(time_point now) const;
   claimed_drive claim_of(const world::trajectory& drive) const;
+  bool is_near(const claimed_drive& plan, point from) const;
   std::optional<time_point> enters(const world::trajectory& drive) const;
   void claim(time_point now, const world::trajectory& drive);
   void follow_claim(time_point now);

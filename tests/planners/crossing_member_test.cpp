@@ -23,13 +23,14 @@ time_point at(double t_s) {
 }
 
 /// Along the x axis (or across it, there where x is 110 m).
-world::trajectory drive(double from_m, double t_s, double heading_rad = 0) {
+world::trajectory drive(double from_m, double t_s, double heading_rad = 0,
+                        double v = speed_mps) {
   world::trajectory x;
   x.start = at(t_s);
   for (int k = 0; k <= 200; ++k) {
-    const auto s = from_m + 0.1 * k * speed_mps;
+    const auto s = from_m + 0.1 * k * v;
     const auto place = heading_rad == 0 ? point{s, 0} : point{110, s - 110};
-    x.points.push_back({0.1 * k, s, place, heading_rad, 0, speed_mps, 0});
+    x.points.push_back({0.1 * k, s, place, heading_rad, 0, v, 0});
   }
   return x;
 }
@@ -109,6 +110,28 @@ TEST_CASE("what another one claims is not claimed") {
     car.member.move(at(t), here(20 + speed_mps * t, speed_mps, &car.way));
     CHECK(car.member.state() == state::free);
   }
+}
+
+TEST_CASE("two that are fast ask each other from farther away") {
+  constexpr double fast_mps = 25;
+  const auto along = drive(-100, 0, 0, fast_mps);
+  const auto across = drive(-100, 0, std::numbers::pi / 2, fast_mps);
+  crossing_member one{own_car, {}}, other{peer, {}};
+  auto were_claimed = false;
+  for (auto t = 0.0; t < 6; t += 0.1) {
+    const auto s_m = -100 + fast_mps * t;
+    const point on_x{s_m, 0}, on_y{110, s_m - 110};
+    one.advise(at(t), along);
+    other.advise(at(t), across);
+    one.move(at(t), {s_m, fast_mps, line_m, clear_m, on_x, &along});
+    other.move(at(t), {s_m, fast_mps, line_m, clear_m, on_y, &across});
+    const auto told = one.tell(at(t)), answer = other.tell(at(t));
+    were_claimed = were_claimed || (told.drive && answer.drive);
+    one.on_report(at(t), answer, bodies(across), on_y);
+    other.on_report(at(t), told, bodies(along), on_x);
+    CHECK_FALSE((one.state() == state::bound && other.state() == state::bound));
+  }
+  CHECK(were_claimed);
 }
 
 TEST_CASE("who will not come when it said gives its claim up, unless it cannot "
