@@ -302,7 +302,8 @@ void provider::on_end(const messages::service_end& e, time_point now) {
     return;
   const auto i = stations_.find(e.session.station);
   if (i != stations_.end()) {
-    trace_.add(step::end_got, e, now);
+    if (e.session.provider == setup_.id) // not before it was started again
+      trace_.add(step::end_got, e, now);
     end(i->second, e.session,
         {e.reason, std::string{messages::told_by_vehicle}}, false, now);
   }

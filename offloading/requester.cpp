@@ -182,6 +182,8 @@ known_provider& requester::meet(provider_id id, peer_id peer) {
   if (const auto i = providers_.find(id); i != providers_.end())
     return i->second;
   assert(!is_in_use(id));
+  trace_.add(step::met, id, setup_.station, now_, {},
+             static_cast<std::uint64_t>(peer));
   // A peer speaks for one provider, which has started again since.
   const auto is_same = [peer](const auto& known) {
     return known.second.peer == peer;
@@ -193,7 +195,8 @@ known_provider& requester::meet(provider_id id, peer_id peer) {
   std::erase_if(providers_, [&](const auto& known) {
     const auto is_over = is_same(known) && !is_in_use(known.first);
     if (is_over)
-      trace_.add(step::peer_lost, known.first, setup_.station, now_);
+      trace_.add(step::forgotten, known.first, setup_.station, now_, {},
+                 static_cast<std::uint64_t>(known.second.peer));
     return is_over;
   });
   for (auto& service : services_)
@@ -362,6 +365,7 @@ void requester::set_standby(service_state& service, duration after) {
   if (chosen == service.standing_by)
     return;
   service.standing_by = chosen;
+  trace_.add(step::standby, setup_.station, service.service.name, chosen, now_);
   port_.set_standby(service.service.name, chosen);
 }
 

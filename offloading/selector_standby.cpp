@@ -13,6 +13,7 @@ void source_selector::on_standby(std::optional<messages::standby> chosen,
                                  time_point now) {
   pass(now);
   standby_ = chosen;
+  trace_.add(step::standby, setup_.station, setup_.service.name, chosen, now);
   announce_roles(now);
   await_cycle_after(began_);
 }
@@ -46,8 +47,10 @@ void source_selector::on_timer(std::uint64_t number, time_point now) {
   if (!answers_.hedge_due(began_, now, standby_->after))
     return;
   for (auto& x : sources_)
-    if (x.in_use && is_standby(x) && feed(x, now))
+    if (x.in_use && is_standby(x) && feed(x, now)) {
+      trace_.add(step::called, x.session, now);
       ++x.calls_in_vain;
+    }
 }
 
 /// One of several that has not been in time for long is of no use, nor is one

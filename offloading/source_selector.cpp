@@ -174,7 +174,9 @@ void source_selector::on_result(const messages::service_result& result,
   }
   auto judged = x->judge->judge(result.what, newest_, now);
   assert(!(judged.refused && judged.useless));
-  if (judged.refused || judged.useless)
+  if (judged.refused || judged.useless) {
+    trace_.add(step::left_out, result.session, now,
+               judged.refused ? "refused" : "useless", result.cycle);
     port_.record(messages::cycle_record{.session = result.session,
                                         .cycle = result.cycle,
                                         .created = result.created,
@@ -182,6 +184,7 @@ void source_selector::on_result(const messages::service_result& result,
                                         .interarrival = {},
                                         .doubt = result.doubt,
                                         .timing = result.timing});
+  }
   if (judged.refused)
     refuse(result.session, *judged.refused, now);
   else if (judged.useless)

@@ -107,6 +107,18 @@ void tracer::add(step what, const messages::session_id& x, time_point now,
           std::string{detail}});
 }
 
+void tracer::add(step what, station_id station,
+                 const messages::service_name& service,
+                 const std::optional<messages::standby>& chosen,
+                 time_point now) {
+  const auto after = chosen ? chosen->after : duration{0};
+  assert(after >= duration{0});
+  add(what,
+      messages::session_id{chosen ? chosen->provider : provider_id{0}, station,
+                           service, 0},
+      now, {}, static_cast<std::uint64_t>(after.count()));
+}
+
 void tracer::add(step what, provider_id provider, station_id station,
                  time_point now, std::string_view detail,
                  std::uint64_t number) {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -33,6 +34,10 @@ public:
   /// @param number  See `messages::trace_record`.
   void add(step what, const messages::session_id& x, time_point now,
            std::string_view detail = {}, std::uint64_t number = 0);
+
+  /// @param chosen  Who stands by; nullopt: nobody.
+  void add(step what, station_id station, const messages::service_name& service,
+           const std::optional<messages::standby>& chosen, time_point now);
 
   /// What concerns no session.
   void add(step what, provider_id provider, station_id station, time_point now,

@@ -23,6 +23,12 @@ constexpr std::string_view unknown_result =
 constexpr std::string_view unknown_named =
     "V11 what only a digest has is ended";
 
+constexpr std::string_view started_again =
+    "V18 a provider is forgotten when its peer speaks for another one";
+
+std::string forgetting(provider_id id) {
+  return fmt::format("forgetting provider {}", id);
+}
 std::string request_of(provider_id id) {
   return fmt::format("the answer of provider {}", id);
 }
@@ -66,6 +72,10 @@ void requester_rules::add(const step& x, trace_place at) {
   at_ = at;
   duties_.pass(x.at);
   switch (x.what) {
+    case met:
+      return on_met(x);
+    case forgotten:
+      return on_forgotten(x);
     case offer_got:
       return on_offer(x);
     case request_sent:
@@ -99,6 +109,23 @@ void requester_rules::add(const step& x, trace_place at) {
   }
 }
 
+// A peer that speaks for another provider now has started again; what still
+// runs there ends by itself.
+void requester_rules::on_met(const step& x) {
+  for (const auto& [id, known] : providers_)
+    if (id != x.provider && known.peer == x.number && !known.open_request
+        && known.sessions.empty())
+      duties_.owe(forgetting(id), x.at, started_again, at_);
+  providers_[x.provider].peer = x.number;
+}
+
+void requester_rules::on_forgotten(const step& x) {
+  if (!duties_.is_owed(forgetting(x.provider)))
+    refute(started_again, fmt::format("provider {}", x.provider));
+  duties_.settle(forgetting(x.provider));
+  on_lost(x);
+}
+
 void requester_rules::on_offer(const step& x) {
   auto& from = providers_[x.provider];
   from.is_lost = false;
@@ -129,6 +156,7 @@ void requester_rules::on_request(const step& x) {
     if (cools != to.cools_until.end() && x.at + slack_ < cools->second)
       refute("V5 nobody is asked within its cool-down",
              fmt::format("{} of provider {}", name.view(), x.provider));
+    judge_others(x, name);
     to.offered.erase(name);
     to.requested.insert(name);
     own_.insert(name);
@@ -137,6 +165,21 @@ void requester_rules::on_request(const step& x) {
   to.asked = x.at;
   duties_.owe(request_of(x.provider), x.at + protocol::request_timeout,
               answered, at_);
+}
+
+// One decision may be for two providers.
+void requester_rules::judge_others(const step& x, const service& name) {
+  for (const auto& [id, other] : providers_) {
+    const auto runs = other.sessions.find(name);
+    const auto is_asked = other.open_request && other.requested.contains(name)
+                          && other.asked != x.at;
+    const auto starts = runs != other.sessions.end() && !runs->second.is_remote;
+    if (id != x.provider && (is_asked || starts))
+      refute("V19 what moves is not asked for elsewhere",
+             fmt::format("{} of provider {}, while it {} provider {}",
+                         name.view(), x.provider,
+                         starts ? "starts at" : "is asked for of", id));
+  }
 }
 
 void requester_rules::on_request_over(const step& x) {
@@ -279,6 +322,7 @@ void requester_rules::on_closed(const step& x) {
 void requester_rules::on_lost(const step& x) {
   auto& lost = providers_[x.provider];
   lost.is_lost = true;
+  lost.peer.reset();
   lost.open_request.reset();
   lost.requested.clear();
   lost.offered.clear();

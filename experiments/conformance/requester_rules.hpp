@@ -37,6 +37,7 @@ private:
   };
 
   struct provider {
+    std::optional<std::uint64_t> peer; // that speaks for it, while it is known
     std::map<service, time_point> offered; // and not asked for since
     std::optional<std::uint64_t> open_request;
     time_point asked;
@@ -49,8 +50,11 @@ private:
     bool is_lost = false; // and has offered nothing since
   };
 
+  void on_met(const step& x);
+  void on_forgotten(const step& x);
   void on_offer(const step& x);
   void on_request(const step& x);
+  void judge_others(const step& x, const service& name);
   void on_request_over(const step& x);
   void on_response(const step& x);
   void on_begun(const step& x);

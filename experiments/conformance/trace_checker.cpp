@@ -10,7 +10,7 @@
 namespace sofof::experiments::conformance {
 
 trace_checker::trace_checker(duration slack)
-    : slack_{slack}, messages_{sink()} {
+    : slack_{slack}, messages_{sink()}, vehicles_{slack, sink()} {
   assert(slack >= duration{0});
 }
 
@@ -62,6 +62,7 @@ void trace_checker::add(const messages::trace_record& x, trace_place at) {
   assert(is_well_formed(x));
   ++steps_;
   messages_.add(x, at);
+  vehicles_.add(x, at);
   switch (x.by) {
     case messages::trace_part::requester:
       return follow(requesters_, {at.trace, x.by, 0, x.station, {}}, x, at);
@@ -80,6 +81,7 @@ const std::vector<breach>& trace_checker::finish() {
   for (auto& [who, x] : providers_)
     x.rules.finish();
   messages_.finish();
+  vehicles_.finish();
   std::ranges::stable_sort(breaches_, {}, &breach::at);
   return breaches_;
 }

@@ -7,6 +7,7 @@
 #include "experiments/conformance/provider_rules.hpp"
 #include "experiments/conformance/requester_rules.hpp"
 #include "experiments/conformance/selector_rules.hpp"
+#include "experiments/conformance/vehicle_rules.hpp"
 #include "messages/protocol/trace.hpp"
 
 #include <cstdint>
@@ -62,6 +63,7 @@ private:
   parts<provider_rules> providers_;
   parts<selector_rules> selectors_;
   message_rules messages_;
+  vehicle_rules vehicles_;
   std::uint64_t steps_ = 0;
 };
 

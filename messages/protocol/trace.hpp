@@ -35,8 +35,8 @@ enum class trace_step : std::uint8_t {
   end_sent,
   end_got,
   heard,     ///< A CAM, of a station that is known from then on.
-  met,       ///< A station has a new requester.
-  forgotten, ///< A station is known no longer.
+  met,       ///< A station has a new requester; a provider is known.
+  forgotten, ///< A station, or a provider, is known no longer.
   peer_lost,
   result_refused, ///< Of no session.
   begun,          ///< A session, with acceptance.
@@ -45,6 +45,9 @@ enum class trace_step : std::uint8_t {
   closed, ///< A session, for a reason.
   function_lost,
   used,      ///< A result has reached the client.
+  left_out,  ///< A result has not, by its judge.
+  standby,   ///< From now on this provider stands by, of several.
+  called,    ///< Who stands by has been asked for a cycle.
   watched,   ///< The watchdog watches by this session's name, ...
   unwatched, ///< ... or no longer.
   source,    ///< From now on results come from here.
@@ -67,8 +70,10 @@ inline constexpr std::array trace_step_names{
     std::string_view{"begun"},         std::string_view{"first_data"},
     std::string_view{"violation"},     std::string_view{"closed"},
     std::string_view{"function_lost"}, std::string_view{"used"},
-    std::string_view{"watched"},       std::string_view{"unwatched"},
-    std::string_view{"source"},        std::string_view{"shut_down"}};
+    std::string_view{"left_out"},      std::string_view{"standby"},
+    std::string_view{"called"},        std::string_view{"watched"},
+    std::string_view{"unwatched"},     std::string_view{"source"},
+    std::string_view{"shut_down"}};
 
 static_assert(trace_part_names.size()
               == static_cast<std::size_t>(trace_part::provider) + 1);
@@ -98,8 +103,9 @@ struct trace_record {
   trace_step what{};
   provider_id provider = 0; ///< 0: concerns none.
   station_id station = 0;   ///< 0: likewise.
-  /// Of a request and its answer; of a digest its last counter; of a used
-  /// result its cycle; of `met` and a provider's `peer_lost` the requester.
+  /// Of a request and its answer; of a digest its last counter; of a result
+  /// its cycle; of `met`, a vehicle's `forgotten` and a provider's `peer_lost`
+  /// the peer; of `standby` how long an answer is waited for, ns.
   std::uint64_t number = 0;
   std::vector<traced_service> services{};
   std::string detail{}; ///< Of `closed` and `end_*` the reason.

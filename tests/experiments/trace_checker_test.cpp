@@ -60,8 +60,15 @@ struct traced {
   }
   traced& selector(trace_step what,
                    std::vector<traced_service> services = session,
-                   std::uint64_t number = 1) {
-    return add(trace_part::selector, what, std::move(services), {}, number);
+                   std::uint64_t number = 1, std::string detail = {}) {
+    return add(trace_part::selector, what, std::move(services),
+               std::move(detail), number);
+  }
+  /// It ends, for that reason, and the own function goes on.
+  void come_home(const char* reason) {
+    selector(trace_step::end_got, session, 0, reason);
+    selector(trace_step::unwatched);
+    selector(trace_step::source, plan);
   }
 
   /// @returns the names of the rules that were broken ("V9").
@@ -251,6 +258,72 @@ TEST_CASE_FIXTURE(traced, "a session begins with an acceptance") {
   CHECK(broken() == rules{"V12"});
 }
 
+TEST_CASE("what moves is not asked for elsewhere, but by the same decision") {
+  const auto asks_another_after = [](duration d, bool has_data) {
+    traced x;
+    const auto another = [&](trace_step what, std::uint64_t number) {
+      x.checker.add({.at = x.now,
+                     .by = trace_part::requester,
+                     .step = ++x.last[trace_part::requester],
+                     .what = what,
+                     .provider = 4,
+                     .station = car,
+                     .number = number,
+                     .services = plan},
+                    {0, x.checker.steps() + 1});
+    };
+    another(trace_step::offer_got, 0);
+    x.vehicle(trace_step::offer_got, plan);
+    x.vehicle(trace_step::request_sent, plan);
+    if (has_data) {
+      x.vehicle(trace_step::response_got);
+      x.vehicle(trace_step::begun);
+      x.vehicle(trace_step::first_data);
+    }
+    x.pass(d);
+    another(trace_step::request_sent, 2);
+    return x.broken();
+  };
+  CHECK(asks_another_after(0ms, false).empty());
+  CHECK(asks_another_after(50ms, true).empty());
+  CHECK(asks_another_after(50ms, false) == rules{"V19"});
+}
+
+TEST_CASE_FIXTURE(traced, "a provider is forgotten when its peer speaks for "
+                          "another one, and only then") {
+  const auto meet = [&](provider_id id, std::uint64_t peer) {
+    checker.add({.at = now,
+                 .by = trace_part::requester,
+                 .step = ++last[trace_part::requester],
+                 .what = trace_step::met,
+                 .provider = id,
+                 .station = car,
+                 .number = peer},
+                {0, checker.steps() + 1});
+  };
+  meet(server, 1);
+  meet(4, 2);
+  CHECK(checker.finish().empty());
+  SUBCASE("as it should be") {
+    meet(5, 1);
+    vehicle(trace_step::forgotten, none);
+    pass(1ms);
+    meet(6, 3);
+    CHECK(broken().empty());
+  }
+  SUBCASE("it is not forgotten") {
+    meet(5, 1);
+    pass(1ms);
+    meet(6, 3);
+    CHECK(broken() == rules{"V18"});
+  }
+  SUBCASE("it is forgotten for a stranger") {
+    meet(5, 3);
+    vehicle(trace_step::forgotten, none);
+    CHECK(broken() == rules{"V18"});
+  }
+}
+
 // -- the provider -------------------------------------------------------------
 
 TEST_CASE_FIXTURE(running_provider, "a provider that tells of what runs, ends "
@@ -372,6 +445,50 @@ TEST_CASE_FIXTURE(traced, "a remote source that nobody watches is found") {
   CHECK(broken() == rules{"S3"});
 }
 
+TEST_CASE("who ends as implausible had its latest result left out, and who "
+          "had not ends for a gap") {
+  const auto ends = [](const char* reason, bool left_out, bool used_since) {
+    running_selector x;
+    if (left_out)
+      x.selector(trace_step::left_out, session, 2, "useless");
+    x.pass(50ms);
+    if (used_since)
+      x.selector(trace_step::used, session, 3);
+    x.pass(100ms);
+    x.come_home(reason);
+    return x.broken();
+  };
+  CHECK(ends("implausible", true, false).empty());
+  CHECK(ends("qos_gap", false, false).empty());
+  CHECK(ends("qos_gap", true, true).empty());
+  CHECK(ends("released", true, false).empty());
+  CHECK(ends("implausible", false, false) == rules{"S7"});
+  CHECK(ends("implausible", true, true) == rules{"S7"});
+  CHECK(ends("qos_gap", true, false) == rules{"S7"});
+}
+
+TEST_CASE_FIXTURE(running_selector, "what comes in the instant of the end may "
+                                    "have come too late for it") {
+  selector(trace_step::left_out, session, 2, "useless");
+  pass(100ms);
+  selector(trace_step::used, session, 3);
+  come_home("implausible");
+  CHECK(broken().empty());
+}
+
+TEST_CASE_FIXTURE(running_selector, "a refused result ends its session at "
+                                    "once") {
+  selector(trace_step::left_out, session, 2, "refused");
+  pass(1ms);
+  come_home("implausible");
+  CHECK(broken() == rules{"S7"});
+}
+
+TEST_CASE_FIXTURE(running_selector, "who does not stand by is not called") {
+  selector(trace_step::called);
+  CHECK(broken() == rules{"S8"});
+}
+
 // -- between the parts --------------------------------------------------------
 
 TEST_CASE_FIXTURE(traced, "what is got has been sent") {
@@ -393,4 +510,30 @@ TEST_CASE_FIXTURE(running_vehicle, "a step that is missing is found") {
   ++last[trace_part::requester];
   vehicle(trace_step::first_data);
   CHECK(broken() == rules{"M2"});
+}
+
+TEST_CASE("a selector does what its requester decides, unless it has died") {
+  const auto runs = [](bool begins, bool goes_on) {
+    running_vehicle x; // has decided
+    if (begins)
+      x.selector(trace_step::begun, session, 1);
+    x.pass(1ms);
+    if (goes_on)
+      x.selector(trace_step::used, plan);
+    return x.broken();
+  };
+  CHECK(runs(true, true).empty());
+  CHECK(runs(false, false).empty());
+  CHECK(runs(false, true) == rules{"M3"});
+}
+
+TEST_CASE_FIXTURE(traced, "who stands by does so on both sides") {
+  selector(trace_step::standby, plan, 20);
+  vehicle(trace_step::standby, plan, {}, 20);
+  pass(1s);
+  vehicle(trace_step::standby, plan, {}, 20);
+  CHECK(checker.finish().empty());
+  pass(1s);
+  selector(trace_step::used, plan);
+  CHECK(broken() == rules{"M3"});
 }

@@ -127,7 +127,7 @@ def in_draw(files, taken):
     return found
 
 
-def reasons():
+def reasons(page="survivors.md"):
     """{name: why nothing can notice it}"""
-    text = (HERE / "survivors.md").read_text()
+    text = (HERE / page).read_text()
     return dict(re.findall(r"^- `([^`]+)`: (.+(?:\n  .+)*)", text, re.M))

@@ -181,6 +181,12 @@ class Lists(unittest.TestCase):
         for name in mutant_list.reasons():
             self.assertIn(name, names)
 
+    def test_mutants_that_change_no_step_are_some_of_their_files(self):
+        for name in mutant_list.reasons("no_step.md"):
+            path = name.partition("#")[0]
+            self.assertIn(name, [x.name for _, x in mutant_list.candidates(
+                path, self.files[path][0].decode())])
+
 
 if __name__ == "__main__":
     if not shutil.which("c++") or subprocess.run(

@@ -9,7 +9,6 @@
 #include "messages/v2x/cam_content.hpp"
 #include "messages/v2x/encoded.hpp"
 #include "tests/properties/ledger.hpp"
-#include "tests/support/echo_service.hpp"
 #include "tests/support/virtual_world.hpp"
 
 #include <caf/stateful_actor.hpp>
@@ -123,7 +122,7 @@ struct actor_world : virtual_world {
     actors::requester_actor_setup setup;
     setup.station = shuttle::station;
     setup.path_ahead = path_ahead;
-    setup.services = {{echo_service("one")}, {echo_service("two")}};
+    setup.services = {{of.service("one")}, {of.service("two")}};
     setup.lodm = of.policy();
     setup.recorder = recorder;
     setup.noise = random_stream{seed, "vehicle"};
@@ -141,7 +140,7 @@ struct actor_world : virtual_world {
     };
     setup.area = area_of_provider(k);
     setup.map = {world, &world->map};
-    setup.services = {echo_service("one"), echo_service("two")};
+    setup.services = {of.service("one"), of.service("two")};
     setup.codm = of.provider_policy();
     setup.recorder = recorder;
     setup.compute = channel::compute_measured_with(profile->name);

@@ -10,6 +10,7 @@
 #include "messages/protocol/motion.hpp"
 #include "messages/protocol/record.hpp"
 #include "policies/registry.hpp"
+#include "tests/support/echo_service.hpp"
 #include "tests/support/toy_streets.hpp"
 #include "world/roads/streets.hpp"
 
@@ -73,24 +74,92 @@ struct client_diary {
     bool any_result = false;
     int changes = 0, told = 0; // of its source: that came, in events
     bool told_remote = false;
+    // Since its last record of work: results of its own function, and inputs
+    // that providers may have got at most.
+    std::uint64_t on_board = 0, most_inputs = 0;
+    std::uint64_t sessions = 0; // that run
+    // When the latest result of a session was left out, and none used since.
+    std::map<messages::session_id, time_point> left_out;
   };
   std::vector<entry> services;
   std::vector<std::string> broken; // promises
   experiments::conformance::trace_checker trace{duration{0}};
-  bool ends = false; // its client is told nothing more
+  std::map<messages::trace_step, int> made; // steps
+  bool ends = false;                        // its client is told nothing more
 
   void on_record(const messages::record& x) {
     if (const auto* step = std::get_if<messages::trace_record>(&x)) {
       trace.add(*step, {0, trace.steps() + 1});
+      ++made[step->what];
+      if (step->by == messages::trace_part::selector) {
+        count_work(*step);
+        judge_gap(*step);
+      }
       ends = ends
              || (step->by == messages::trace_part::requester
                  && step->what == messages::trace_step::shut_down);
     }
+    if (const auto* work = std::get_if<messages::work_record>(&x))
+      compare(*work);
     const auto* event = std::get_if<messages::event_record>(&x);
     if (event && event->what == messages::event_type::switched && !ends) {
       auto& e = of(event->service); // or from one provider to another
       e.told += std::exchange(e.told_remote, event->remote) != event->remote;
     }
+  }
+
+  // A provider gets ten inputs a second, one more at the begin, and one when it
+  // is called, or comes to stand by, or no longer does.
+  static constexpr std::uint64_t inputs_a_second = 12;
+
+  void count_work(const messages::trace_record& step) {
+    using enum messages::trace_step;
+    const auto& [name, counter] = step.services.front();
+    auto& e = of(name);
+    e.on_board += step.what == used && counter == 0;
+    if (step.what == begun) {
+      ++e.sessions;
+      e.most_inputs += inputs_a_second;
+    }
+    e.sessions -= step.what == end_got;
+    e.most_inputs += step.what == called;
+    if (step.what == first_data || step.what == end_got || step.what == standby)
+      e.most_inputs += e.sessions;
+  }
+
+  // Of a provider that stops giving results of use it is said so, not that it
+  // is silent, also beside another one.
+  void judge_gap(const messages::trace_record& step) {
+    using namespace std::chrono_literals;
+    using enum messages::trace_step;
+    const auto& [name, counter] = step.services.front();
+    auto& left = of(name).left_out;
+    const messages::session_id session{step.provider, step.station, name,
+                                       counter};
+    if (step.what == messages::trace_step::left_out)
+      left[session] = step.at;
+    if (step.what == used)
+      left.erase(session);
+    constexpr auto two_periods = 100ms;
+    const auto known = left.find(session);
+    if (step.what == end_got && known != left.end() && known->second < step.at
+        && step.at - known->second <= two_periods && step.detail == "qos_gap")
+      broken.push_back("who gave what is of no use ended for a gap");
+  }
+
+  /// Once a second.
+  void compare(const messages::work_record& work) {
+    auto& e = of(work.service);
+    if (work.on_board != e.on_board)
+      broken.push_back(fmt::format("{} results of {} on board, {} are recorded",
+                                   e.on_board, work.service.view(),
+                                   work.on_board));
+    if (work.inputs > e.most_inputs)
+      broken.push_back(
+          fmt::format("{} inputs of {} in a second, not {} at most",
+                      work.inputs, work.service.view(), e.most_inputs));
+    e.on_board = 0;
+    e.most_inputs = e.sessions * inputs_a_second;
   }
 
   /// Everybody has gone.
@@ -141,24 +210,6 @@ struct client_diary {
   }
 };
 
-/// Decides about requests of a fifth of a second together.
-class patient final : public policies::central_policy {
-public:
-  std::vector<policies::central_decision>
-  decide(const policies::central_context& context) override {
-    return inner_->decide(context);
-  }
-  double epoch_s() const override { return 0.2; }
-  std::string_view name() const override { return "patient"; }
-  std::unique_ptr<policies::central_policy> clone() const override {
-    return std::make_unique<patient>();
-  }
-
-private:
-  std::unique_ptr<policies::central_policy> inner_ =
-      policies::make_codm("location");
-};
-
 /// What a vehicle, its links and its providers are like.
 struct conduct {
   std::function<std::unique_ptr<policies::local_policy>()> policy = [] {
@@ -167,6 +218,8 @@ struct conduct {
   /// Of each provider.
   std::function<std::unique_ptr<policies::central_policy>()> provider_policy =
       [] { return policies::make_codm("location"); };
+  std::function<offloading::service(const messages::service_name&)> service =
+      [](const messages::service_name& name) { return echo_service(name); };
   /// Nothing gets through meanwhile; in order.
   std::vector<channel::outage_options> outages{};
 

@@ -83,6 +83,7 @@ struct vehicle_timer {
 
 struct provider_timer {
   std::size_t provider = 0;
+  std::uint64_t start = 0; // of the provider, which may have started again
   std::uint64_t number = 0;
 };
 
@@ -192,7 +193,8 @@ struct library_world {
     channel::server_queue workers;
     random_stream draws_of_results;
     library_link link;
-    bool alive = true;
+    bool alive = false;
+    std::uint64_t starts = 0;
     std::unique_ptr<offloading::provider_side> side;
 
     provider_node(library_world& w, std::size_t k)
@@ -205,16 +207,22 @@ struct library_world {
           link{w.time, draws(),
                channel::link_faults{random_stream{w.seed, "faults"}.part(k + 1),
                                     w.faults}} {
+      start(static_cast<provider_id>(k + 1));
+    }
+
+    void start(provider_id id) {
+      alive = true;
+      ++starts;
       offloading::provider_setup setup;
-      setup.id = static_cast<provider_id>(k + 1);
-      setup.area = area_of_provider(static_cast<int>(k));
+      setup.id = id;
+      setup.area = area_of_provider(static_cast<int>(number));
       for (const auto& name : {one, two})
-        setup.services.push_back(at_provider(echo_service(name), {}));
-      setup.policy = w.of.provider_policy();
+        setup.services.push_back(at_provider(world.of.service(name), {}));
+      setup.policy = world.of.provider_policy();
       setup.computer = {static_cast<std::size_t>(computers.workers),
                         computers.mean_s(), computers.deviation_s()};
-      setup.map = {w.world, &w.world->map};
-      setup.noise = random_stream{w.seed, "network"};
+      setup.map = {world.world, &world.world->map};
+      setup.noise = random_stream{world.seed, "network"};
       setup.trace = true;
       side =
           std::make_unique<offloading::provider_side>(std::move(setup), *this);
@@ -246,7 +254,7 @@ struct library_world {
     }
     void record(messages::record&& x) override { world.keep(x); }
     void wake_at(time_point t, std::uint64_t number_of_timer) override {
-      world.time.at<provider_timer>(t, number, number_of_timer);
+      world.time.at<provider_timer>(t, number, starts, number_of_timer);
     }
   };
 
@@ -310,7 +318,7 @@ struct library_world {
     setup.path_ahead = path_ahead;
     setup.trace = true;
     for (const auto& name : {one, two})
-      setup.services.push_back(in_vehicle(echo_service(name), {}));
+      setup.services.push_back(in_vehicle(of.service(name), {}));
     side = std::make_unique<offloading::vehicle_side>(std::move(setup), node,
                                                       time.now());
     handle(tick{});
@@ -342,7 +350,7 @@ struct library_world {
       side->on_timer(x.number, now());
   }
   void handle(const provider_timer& x) {
-    if (auto& p = *providers[x.provider]; p.alive)
+    if (auto& p = *providers[x.provider]; p.alive && p.starts == x.start)
       p.side->on_timer(x.number, now());
   }
   // CAMs of a vehicle that is gone are not decoded any more.
@@ -405,6 +413,12 @@ struct library_world {
   }
   /// No connection tells that it is gone.
   void silence_provider() { providers.front()->alive = false; }
+  /// It knows nothing of before, and has another number.
+  void restart_provider() {
+    constexpr provider_id::rep later = 100;
+    auto& again = *providers.front();
+    again.start(static_cast<provider_id>(later + again.starts));
+  }
   void crash_vehicle() {
     alive = false;
     for (auto& p : providers)

@@ -4,7 +4,9 @@
 
 #include "tests/properties/actor_world.hpp"
 #include "tests/properties/library_world.hpp"
+#include "tests/properties/lying_echo.hpp"
 #include "tests/properties/two_at_once.hpp"
+#include "tests/properties/watchful_policies.hpp"
 #include "tests/support/dice.hpp"
 
 #include <doctest/doctest.h>
@@ -128,6 +130,49 @@ TEST_CASE_TEMPLATE("whatever a link does: with two providers at once, with one "
   CHECK(episodes > 100);
 }
 
+TEST_CASE_TEMPLATE("whatever a link does to results of which some are lies or "
+                   "useless: those are not used, and end their session",
+                   World, actor_world, library_world) {
+  dice random{1835};
+  int implausible = 0, gaps = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const auto of = with_liars(
+        seed % 3 != 0 ? conduct{} : with_two(seed % 2 == 0 ? 0ms : 20ms), seed);
+    const link_fault_options faults{
+        random.between(0, 0.3), random.between(0, 0.3), random.between(0, 0.3),
+        from_seconds(random.between(0.001, 1.0))};
+    const auto book = live<World>(seed, faults, 3, std::nullopt, of);
+    implausible += book.reasons.contains(end_reason::implausible);
+    gaps += book.reasons.contains(end_reason::qos_gap);
+  }
+  CHECK(implausible == 12);
+  CHECK(gaps >= 10);
+}
+
+TEST_CASE_TEMPLATE("a vehicle tells whom it asks, and whom else it could ask",
+                   World, actor_world, library_world) {
+  int others = 0;
+  conduct of;
+  of.provider_policy = [&others] {
+    return std::make_unique<attentive>(others);
+  };
+  live<World>(1, {}, 3, std::nullopt, of);
+  CHECK(others > 30);
+}
+
+TEST_CASE_TEMPLATE("who stands by is not called while the other one answers in "
+                   "time",
+                   World, actor_world, library_world) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    CAPTURE(seed);
+    World w{seed, {}, 2, "ideal", with_two(40ms)};
+    w.run_and_check(200s);
+    w.dismiss();
+    CHECK(w.diary->made[trace_step::standby] > 0);
+    CHECK(w.diary->made[trace_step::called] == 0);
+  }
+}
+
 TEST_CASE_TEMPLATE("when the provider crashes, its vehicles go on locally at "
                    "once",
                    World, actor_world, library_world) {
@@ -160,6 +205,36 @@ TEST_CASE("when a provider dies and nothing says so, its vehicle has a fresh "
     for (const auto& text : w.diary->broken)
       FAIL_CHECK(text);
   }
+}
+
+TEST_CASE("a provider that starts again is another one: its vehicle forgets "
+          "which it was, and runs its services there") {
+  dice random{1969};
+  int again = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    CAPTURE(seed);
+    library_world w{seed,
+                    {random.between(0, 0.2), 0, 0, {}},
+                    2,
+                    "paper_5g",
+                    with_two(seed % 2 == 0 ? 0ms : 20ms)};
+    for (int starts = 0; starts < 3; ++starts) {
+      w.run_and_check(from_seconds(random.between(5, 60)));
+      w.silence_provider();
+      w.run_and_check(from_seconds(random.between(0, 5)));
+      w.restart_provider();
+    }
+    w.run_and_check(60s);
+    w.dismiss();
+    w.diary->finish();
+    for (const auto& text : w.diary->broken)
+      FAIL_CHECK(text);
+    for (const auto& [session, times] : w.book->closed_by_requester) {
+      CHECK(times == 1);
+      again += session.provider > provider_id{100};
+    }
+  }
+  CHECK(again > 100);
 }
 
 TEST_CASE_TEMPLATE("when a vehicle crashes, its provider closes what it ran "
