@@ -300,19 +300,6 @@ plan_judge::first_touch(const judged_plan& x, const world::trajectory& plan,
   return bodies_.first_touch(motion_, car_);
 }
 
-// Who creeps can stop at once, but a body is seen to within a few decimetres
-// only.
-double plan_judge::reaction_s(const judged_plan& x) const {
-  const auto late_s = to_seconds(x.now - x.plan.start);
-  const auto begins_m = x.plan.at(late_s).s_m;
-  auto t = limits.reaction_s;
-  while (t < limits.horizon_s
-         && x.plan.at(late_s + t).s_m < begins_m + limits.reaction_m)
-    t += limits.step_s;
-  assert(t >= limits.reaction_s);
-  return t;
-}
-
 std::optional<foreseen_bodies::touch> plan_judge::touch(const judged_plan& x,
                                                         double beside_m) {
   constexpr double margin_m = 0.5; // between the points that were looked at
@@ -326,7 +313,8 @@ std::optional<foreseen_bodies::touch> plan_judge::touch(const judged_plan& x,
   const auto touched = first_touch(x, x.plan, limits.horizon_s, 0);
   // Else there is time to see what it does next.
   const auto soon =
-      touched && first_touch(x, x.plan, reaction_s(x), limits.avoiding_mps2);
+      touched
+      && first_touch(x, x.plan, limits.reaction_s, limits.avoiding_mps2);
   if (!soon)
     return std::nullopt;
   const auto braking_avoids = !first_touch(x, x.plan, 0, limits.avoiding_mps2);

@@ -71,7 +71,6 @@ struct plan_limits {
   /// Until the own planner brakes in place of a refused plan: two results, one
   /// cycle on board, and the rise of the braking.
   double reaction_s = 0.7;
-  double reaction_m = 0.3; ///< Or until a creeping vehicle has come so far.
   double line_decel_mps2 = 4.5; ///< By which it could still stop then.
   /// What can stop now by this does not pass a line unless it wants to.
   double own_line_decel_mps2 = 4.0;
@@ -195,7 +194,6 @@ private:
   std::optional<double> beyond_line_m(const judged_plan& x) const;
   std::optional<foreseen_bodies::touch> touch(const judged_plan& x,
                                               double beside_m);
-  double reaction_s(const judged_plan& x) const;
   std::optional<foreseen_bodies::touch>
   first_touch(const judged_plan& x, const world::trajectory& plan,
               double until_s, double decel_mps2);

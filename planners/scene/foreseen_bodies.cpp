@@ -111,8 +111,11 @@ bool foreseen_bodies::touches(const box& x, const place_in_time& p,
                               const world::vehicle_params& car) const {
   const auto half_m = std::min(x.half_length_m, x.core_m);
   const auto way_m = along_m(x, p.t_s) - p.s_m; // from the own axle
+  const auto keeps_gap = p.speed_mps < creeps_mps && !x.crosses
+                         && x.along_mps >= 0 && way_m - half_m > car.front_m;
+  const auto front_m = car.front_m + (keeps_gap ? kept_gap_m : 0);
   const auto from_m = std::max(way_m - half_m, -car.rear_m);
-  const auto to_m = std::min(way_m + half_m, car.front_m);
+  const auto to_m = std::min(way_m + half_m, front_m);
   if (from_m >= to_m)
     return false;
   assert(std::abs(p.turned) <= 1);
@@ -121,7 +124,8 @@ bool foreseen_bodies::touches(const box& x, const place_in_time& p,
   const auto far_m = apart_m - to_m * p.turned;
   const auto least_m =
       near_m * far_m <= 0 ? 0.0 : std::min(std::abs(near_m), std::abs(far_m));
-  return least_m < half_corridor_m_ + std::min(x.half_width_m, x.core_m);
+  const auto beside_m = half_corridor_m_ + std::min(x.half_width_m, x.core_m);
+  return least_m < beside_m - (keeps_gap ? grazes_m : 0);
 }
 
 std::optional<foreseen_bodies::touch>

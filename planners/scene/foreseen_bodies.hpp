@@ -55,7 +55,8 @@ public:
 
   /// @returns when a vehicle that moves touches one of them; nullopt: never.
   /// Whoever rests touches nobody, and who nearly does touches nobody that
-  /// crosses. Of who crosses only the core is touched: it may be turning.
+  /// crosses. Of who crosses only the core is touched: it may be turning. Who
+  /// creeps has to keep half a metre from who is ahead.
   std::optional<touch> first_touch(std::span<const place_in_time> motion,
                                    const world::vehicle_params& car) const;
 
@@ -90,6 +91,12 @@ private:
   static constexpr double stands_mps = 0.3;
   /// Who is as slow as this hits nobody.
   static constexpr double rests_mps = 0.01;
+  /// Who is slower than this keeps so far from a body that stands or drives
+  /// ahead of it; planners keep 1 m at least. But not from one that it only
+  /// grazes by so much: it may be passing it.
+  static constexpr double creeps_mps = 2.0;
+  static constexpr double kept_gap_m = 0.5;
+  static constexpr double grazes_m = 0.3;
 
   struct box {
     double s_m, d_m;                    // of its middle
