@@ -66,6 +66,15 @@ duration fresh_limit(const scenario_definition& s) {
          + options.period;
 }
 
+/// @returns after which time without a new plan nobody plans any more. A remote
+/// plan was held against the bodies in sight for 2.5 s: braking after a second
+/// ends within the way of these, up to some 10 m/s.
+duration alone_limit(const scenario_definition& s) {
+  return planning_service(s)
+             ? std::max<duration>(std::chrono::seconds{1}, 3 * fresh_limit(s))
+             : duration{};
+}
+
 /// @returns those of providers; none where the cars drive in other processes:
 /// they would tell of an empty road, and speak against every car.
 std::vector<actors::roadside_sensor>
@@ -320,6 +329,7 @@ private:
                  fleet.start_speed_mps,
                  {},
                  fresh_limit(s_),
+                 alone_limit(s_),
                  s_.record.tracks ? s_.record.tracks_period : duration{0},
                  roads_.of(v.way)};
     setup.appears_after = v.appears;

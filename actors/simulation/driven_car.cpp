@@ -57,7 +57,7 @@ void driven_car::appear(time_point now) {
 driven_car::due driven_car::move() {
   assert(has_appeared());
   const auto next = at_ + protocol::control_period;
-  if (plan_->end() - next < reserve)
+  if (plan_->end() - next < reserve || is_left_alone(next))
     stop_safely(next);
   const auto command = world::follow(car_, *plan_, next, setup_.car);
   const auto dt_s = to_seconds(protocol::control_period);
@@ -105,7 +105,13 @@ bool driven_car::ends(duration period, std::uint64_t step) const {
 
 // -- plans ------------------------------------------------------------------
 
+bool driven_car::is_left_alone(time_point next) const {
+  return !stops_safely_ && setup_.alone_limit > 0ms
+         && next - plan_created_ > setup_.alone_limit;
+}
+
 void driven_car::stop_safely(time_point from) {
+  stops_safely_ = true;
   figures_->stop_safely();
   plan_ = std::make_shared<const world::trajectory>(
       planners::safe_stop(*setup_.way, from, measured()));
@@ -124,6 +130,7 @@ driven_car::use(const received_plan& next, const messages::service_result& from,
       figures_->on_plan(*plan_, *next.plan, next.report, from.session, now);
   plan_ = next.plan;
   plan_created_ = from.created;
+  stops_safely_ = false;
   return jump;
 }
 

@@ -24,6 +24,8 @@ struct car_setup {
   double start_speed_mps = 0;
   world::vehicle_params car;
   duration fresh_limit{};           ///< Plans older than this are not fresh.
+  duration alone_limit{};           ///< Older ones are not followed to their
+                                    ///< end; zero: all are.
   duration track_period{};          ///< Between two track records; zero: none.
   planners::route_profile_ptr road; ///< Of `way`, as comfort has it by default.
 };
@@ -43,7 +45,8 @@ void visit_fields(auto& v, own_drive& x) {
 
 /// Steps the car at protocol::control_period along the plan in use. It begins
 /// with a plan to keep its speed, and when a plan is about to end without a
-/// successor it makes a safe stop of its own: it never is without a plan.
+/// successor, or is too old to be followed any more, it makes a safe stop of
+/// its own: it never is without a plan.
 class driven_car {
 public:
   explicit driven_car(car_setup setup);
@@ -105,6 +108,7 @@ private:
   planners::planning_input measured() const;
   bool ends(duration period, std::uint64_t step) const;
   bool is_tracked(std::uint64_t step) const;
+  bool is_left_alone(time_point next) const;
   void stop_safely(time_point from);
   void count_safety();
 
@@ -116,6 +120,7 @@ private:
   std::uint64_t steps_ = 0;
   std::shared_ptr<const world::trajectory> plan_;
   time_point plan_created_;
+  bool stops_safely_ = false;
   messages::safety_record safety_;
   std::optional<drive_figures> figures_; // from when it appears on
 };

@@ -35,6 +35,7 @@ struct driving_world : virtual_world {
   const std::optional<messages::v2x_options> v2x;
   const double range_m; // of both antennas
   const duration appears_after;
+  const duration alone_limit;
   world::route_ptr way = street();
   planners::lane_follow planner{way, {}};
   messages::vehicle_actor car = spawn();
@@ -44,9 +45,9 @@ struct driving_world : virtual_world {
   explicit driving_world(
       double starts_at_mps = 0,
       std::optional<messages::v2x_options> says = messages::v2x_options{},
-      double heard_within_m = 100, duration appears = {})
+      double heard_within_m = 100, duration appears = {}, duration alone = {})
       : start_speed_mps{starts_at_mps}, v2x{std::move(says)},
-        range_m{heard_within_m}, appears_after{appears} {
+        range_m{heard_within_m}, appears_after{appears}, alone_limit{alone} {
     settle();
   }
 
@@ -64,6 +65,7 @@ struct driving_world : virtual_world {
                  start_speed_mps,
                  {},
                  200ms,
+                 alone_limit,
                  100ms,
                  std::make_shared<const planners::route_profile>(
                      way, planners::comfort_limits{})};

@@ -288,6 +288,18 @@ TEST_CASE_FIXTURE(driving_world, "a smooth drive is recorded as smooth") {
   CHECK(recorder->count<plan_switch_record>() == 0);
 }
 
+TEST_CASE("a vehicle that nobody plans for any more begins to brake after a "
+          "second") {
+  driving_world world{0, v2x_options{}, 100, {}, 1s};
+  world.drive(10s);
+  world.run_for(900ms);
+  const auto before_mps = world.last_report().state.speed_mps;
+  world.run_for(1s);
+  CHECK(world.last_report().state.speed_mps < before_mps - 2);
+  world.run_for(3s);
+  CHECK(world.last_report().state.speed_mps == 0);
+}
+
 TEST_CASE_FIXTURE(driving_world, "a vehicle that stops on its own says so "
                                  "once, and that it braked hard") {
   drive(10s);
