@@ -65,17 +65,16 @@ void source_selector::give_up_silent(time_point now) {
     if (!x.in_use || x.given_up || silent <= protocol::start_timeout)
       continue;
     x.given_up = true;
-    const auto was_useless =
-        x.useless && now - x.useless_at <= patience_periods * options().period;
-    const auto found = x.useless.value_or(messages::implausibility{});
-    port_.report({x.session,
-                  was_useless ? messages::qos_breach::implausible
-                              : messages::qos_breach::gap,
-                  now, true,
-                  was_useless
-                      ? found.why
-                      : in_words("qos_gap", silent, protocol::start_timeout),
-                  was_useless ? found.check : std::string{}});
+    if (const auto& found = x.useless)
+      port_.report({x.session, messages::qos_breach::implausible, now, true,
+                    found->why, found->check});
+    else
+      port_.report({x.session,
+                    messages::qos_breach::gap,
+                    now,
+                    true,
+                    in_words("qos_gap", silent, protocol::start_timeout),
+                    {}});
   }
 }
 

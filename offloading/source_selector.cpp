@@ -268,7 +268,6 @@ void source_selector::leave_out(source& x, const objection& why,
                                 time_point now) {
   x.useless = told(why);
   note(messages::event_type::result_refused, x.session, x.useless->why, now);
-  x.useless_at = now;
   port_.watch_useless(x.session, *x.useless);
 }
 

@@ -127,10 +127,8 @@ private:
     int answers = 0; // since then
     std::optional<time_point> last_received;
     std::optional<time_point> last_in_time;
-    // Of the results since then.
-    std::optional<messages::implausibility> useless;
-    time_point useless_at;
-    bool knows_it_stands_by = false; // by the last input
+    std::optional<messages::implausibility> useless; // the latest since then
+    bool knows_it_stands_by = false;                 // by the last input
     int calls_in_vain = 0;
   };
 
