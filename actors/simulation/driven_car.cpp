@@ -105,11 +105,6 @@ bool driven_car::ends(duration period, std::uint64_t step) const {
 
 // -- plans ------------------------------------------------------------------
 
-bool driven_car::is_left_alone(time_point next) const {
-  return !stops_safely_ && setup_.alone_limit > 0ms
-         && next - plan_created_ > setup_.alone_limit;
-}
-
 void driven_car::stop_safely(time_point from) {
   stops_safely_ = true;
   figures_->stop_safely();

@@ -108,7 +108,10 @@ private:
   planners::planning_input measured() const;
   bool ends(duration period, std::uint64_t step) const;
   bool is_tracked(std::uint64_t step) const;
-  bool is_left_alone(time_point next) const;
+  bool is_left_alone(time_point next) const {
+    return !stops_safely_ && setup_.alone_limit > duration{}
+           && next - plan_created_ > setup_.alone_limit;
+  }
   void stop_safely(time_point from);
   void count_safety();
 
