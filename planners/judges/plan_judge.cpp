@@ -272,7 +272,7 @@ bool plan_judge::is_repeated(const judged_plan& x) {
 // Along the plan for so long, then braking on its line.
 std::optional<foreseen_bodies::touch>
 plan_judge::first_touch(const judged_plan& x, const world::trajectory& plan,
-                        double until_s, double decel_mps2) {
+                        double until_s, double decel_mps2, double kept_gap_m) {
   assert(!plan.empty() && until_s >= 0 && decel_mps2 >= 0);
   motion_.clear();
   const auto late_s = to_seconds(x.now - plan.start);
@@ -297,7 +297,7 @@ plan_judge::first_touch(const judged_plan& x, const world::trajectory& plan,
     }
     motion_.push_back({t + seen_s, s_m, d_m, turned, v});
   }
-  return bodies_.first_touch(motion_, car_);
+  return bodies_.first_touch(motion_, car_, kept_gap_m);
 }
 
 std::optional<foreseen_bodies::touch> plan_judge::touch(const judged_plan& x,
@@ -310,7 +310,8 @@ std::optional<foreseen_bodies::touch> plan_judge::touch(const judged_plan& x,
                             until_s))
     return std::nullopt;
   assert(beside_m >= 0 && until_s > 0);
-  const auto touched = first_touch(x, x.plan, limits.horizon_s, 0);
+  const auto touched =
+      first_touch(x, x.plan, limits.horizon_s, 0, limits.kept_gap_m);
   // Else there is time to see what it does next.
   const auto soon =
       touched

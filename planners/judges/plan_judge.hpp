@@ -71,6 +71,7 @@ struct plan_limits {
   /// Until the own planner brakes in place of a refused plan: two results, one
   /// cycle on board, and the rise of the braking.
   double reaction_s = 0.7;
+  double kept_gap_m = 0.5;      ///< While creeping; planners keep 1 m at least.
   double line_decel_mps2 = 4.5; ///< By which it could still stop then.
   /// What can stop now by this does not pass a line unless it wants to.
   double own_line_decel_mps2 = 4.0;
@@ -196,7 +197,7 @@ private:
                                               double beside_m);
   std::optional<foreseen_bodies::touch>
   first_touch(const judged_plan& x, const world::trajectory& plan,
-              double until_s, double decel_mps2);
+              double until_s, double decel_mps2, double kept_gap_m = 0);
   std::optional<objection> run_into(const judged_plan& x, double beside_m);
   bool own_plan_touches(const judged_plan& x);
   bool has_reason_to_brake(const judged_plan& x) const;

@@ -108,11 +108,13 @@ bool foreseen_bodies::any_in_reach(double ahead_m, double beside_m,
 /// The own body may be turned: only the part of it counts that is beside the
 /// other one.
 bool foreseen_bodies::touches(const box& x, const place_in_time& p,
-                              const world::vehicle_params& car) const {
+                              const world::vehicle_params& car,
+                              double kept_gap_m) const {
   const auto half_m = std::min(x.half_length_m, x.core_m);
   const auto way_m = along_m(x, p.t_s) - p.s_m; // from the own axle
-  const auto keeps_gap = p.speed_mps < creeps_mps && !x.crosses
-                         && x.along_mps >= 0 && way_m - half_m > car.front_m;
+  const auto keeps_gap = kept_gap_m > 0 && p.speed_mps < creeps_mps
+                         && !x.crosses && x.along_mps >= 0
+                         && way_m - half_m > car.front_m;
   const auto front_m = car.front_m + (keeps_gap ? kept_gap_m : 0);
   const auto from_m = std::max(way_m - half_m, -car.rear_m);
   const auto to_m = std::min(way_m + half_m, front_m);
@@ -130,7 +132,8 @@ bool foreseen_bodies::touches(const box& x, const place_in_time& p,
 
 std::optional<foreseen_bodies::touch>
 foreseen_bodies::first_touch(std::span<const place_in_time> motion,
-                             const world::vehicle_params& car) const {
+                             const world::vehicle_params& car,
+                             double kept_gap_m) const {
   assert(std::ranges::is_sorted(motion, {}, &place_in_time::t_s));
   assert(half_corridor_m_ >= 0);
   for (const auto& p : motion) {
@@ -138,7 +141,7 @@ foreseen_bodies::first_touch(std::span<const place_in_time> motion,
       continue;
     const auto stands = p.speed_mps < stands_mps;
     for (const auto& x : boxes_)
-      if (x.counts && !(x.crosses && stands) && touches(x, p, car))
+      if (x.counts && !(x.crosses && stands) && touches(x, p, car, kept_gap_m))
         return touch{p.t_s, x.crosses};
   }
   return std::nullopt;

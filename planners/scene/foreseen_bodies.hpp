@@ -56,9 +56,10 @@ public:
   /// @returns when a vehicle that moves touches one of them; nullopt: never.
   /// Whoever rests touches nobody, and who nearly does touches nobody that
   /// crosses. Of who crosses only the core is touched: it may be turning. Who
-  /// creeps has to keep half a metre from who is ahead.
+  /// creeps touches who is ahead when it comes nearer than `kept_gap_m`.
   std::optional<touch> first_touch(std::span<const place_in_time> motion,
-                                   const world::vehicle_params& car) const;
+                                   const world::vehicle_params& car,
+                                   double kept_gap_m = 0) const;
 
   /// @returns whether one of them is, or soon comes, so near before the
   /// vehicle that it has a reason to brake.
@@ -91,11 +92,10 @@ private:
   static constexpr double stands_mps = 0.3;
   /// Who is as slow as this hits nobody.
   static constexpr double rests_mps = 0.01;
-  /// Who is slower than this keeps so far from a body that stands or drives
-  /// ahead of it; planners keep 1 m at least. But not from one that it only
-  /// grazes by so much: it may be passing it.
+  /// Who is slower than this keeps a gap to a body that stands or drives ahead
+  /// of it, but not to one that it only grazes by so much: it may be passing
+  /// it.
   static constexpr double creeps_mps = 2.0;
-  static constexpr double kept_gap_m = 0.5;
   static constexpr double grazes_m = 0.3;
 
   struct box {
@@ -109,7 +109,7 @@ private:
   };
   static double along_m(const box& x, double t_s);
   bool touches(const box& x, const place_in_time& p,
-               const world::vehicle_params& car) const;
+               const world::vehicle_params& car, double kept_gap_m) const;
 
   std::vector<box> boxes_; // the room is used again
   double front_m_ = 0;     // of the vehicle, arc length

@@ -302,6 +302,15 @@ TEST_CASE_FIXTURE(judged_drive, "a plan that creeps into a standing car is "
   CHECK(s_m + vehicle_params{}.front_m < rear_m);
 }
 
+TEST_CASE_FIXTURE(judged_drive, "a plan into a standing car is refused also "
+                                "when the own car is nearer than it should") {
+  see_car(s_m + vehicle_params{}.front_m + 0.4 + 2.25, 0, 0, 0);
+  speed_mps = 0.1;
+  const auto begins_m = s_m;
+  CHECK(refused_within(5s, 0.5) == "others");
+  CHECK(s_m < begins_m + 0.1);
+}
+
 TEST_CASE_FIXTURE(judged_drive, "who comes the other way, in its own lane, is "
                                 "no reason to refuse a plan") {
   see_car(260, 3.5, std::numbers::pi, 14);
