@@ -107,14 +107,13 @@ public:
              const world::trajectory* before = nullptr) const {
     if (auto own = result.what.as<world::trajectory>())
       return own;
-    const auto plan =
-        vehicle->make_judge()
-            ->judge(
-                result.what,
-                {running, of.from.at, messages::payload::of(of),
-                 before ? messages::payload::of(*before) : messages::payload{}},
-                *now)
-            .what.as<world::trajectory>();
+    auto plan = vehicle->make_judge()
+                    ->judge(result.what,
+                            {running, of.from.at, messages::payload::of(of),
+                             before ? messages::payload::of(*before)
+                                    : messages::payload{}},
+                            *now)
+                    .what.as<world::trajectory>();
     REQUIRE((!plan || plan->is_sound()));
     return plan;
   }
