@@ -121,7 +121,8 @@ struct plan_limits {
 /// * `speed`, `along`, `across`: too fast, or too strong an acceleration.
 /// * `stop_line`: soon the vehicle could not stop before the line any more.
 /// * `others`: it touches a body, also if the vehicle leaves it soon and
-///   brakes, while braking now, or the plan in use, would not.
+///   brakes, while braking now, or the plan in use, would not. Who creeps
+///   touches one ahead half a metre before it.
 /// * `braking`: hard, for a while, with nothing ahead. It is obeyed until then:
 ///   the provider may see a body that the vehicle cannot.
 /// * `standing`: while the vehicle is slow, plans stay so far behind what its

@@ -86,7 +86,7 @@ private:
   planners::object_tracker model_;
   std::optional<time_point> taken_in_;
   std::optional<plan_cycle> cycle_;
-  bool drives_by_another_ = false; // source, so that the own plan is an old one
+  bool drives_by_another_ = false; // source: the own plan is an old one
 };
 
 } // namespace
