@@ -78,8 +78,12 @@ plan_verdict plan_judge::judge(const judged_plan& x) {
   const auto beyond_m = beyond_line_m(x);
   if (beyond_m > 0.0)
     return {false, objection{"stop_line", *beyond_m, 0}};
-  if (const auto fault = run_into(x, found.beside_m))
+  const auto touched = touch(x, found.beside_m);
+  if (const auto fault = run_into(x, touched))
     return {false, fault};
+  // Waiting costs nothing, and every new source would nudge it on once.
+  if (touched && !touched->crosses && x.own.speed_mps < limits.moves_mps)
+    return {false, {}, objection{"others", touched->t_s, limits.horizon_s}};
   if (const auto fault = fall_behind(x, passed_s))
     return {false, fault};
   list_margins(begins, found, beyond_m);
@@ -313,9 +317,9 @@ std::optional<foreseen_bodies::touch> plan_judge::touch(const judged_plan& x,
   const auto touched =
       first_touch(x, x.plan, limits.horizon_s, 0, limits.kept_gap_m);
   // Else there is time to see what it does next.
-  const auto soon =
-      touched
-      && first_touch(x, x.plan, limits.reaction_s, limits.avoiding_mps2);
+  const auto soon = touched
+                    && first_touch(x, x.plan, limits.reaction_s,
+                                   limits.avoiding_mps2, limits.kept_gap_m);
   if (!soon)
     return std::nullopt;
   const auto braking_avoids = !first_touch(x, x.plan, 0, limits.avoiding_mps2);
@@ -329,9 +333,9 @@ std::optional<foreseen_bodies::touch> plan_judge::touch(const judged_plan& x,
 
 // A body that crosses may yet turn: it counts when all of the last results
 // touch it, and the own plan does not.
-std::optional<objection> plan_judge::run_into(const judged_plan& x,
-                                              double beside_m) {
-  const auto touched = touch(x, beside_m);
+std::optional<objection>
+plan_judge::run_into(const judged_plan& x,
+                     const std::optional<foreseen_bodies::touch>& touched) {
   const auto crosses = touched && touched->crosses;
   crossing_.add(crosses);
   const auto crashes = crossing_.all() && !own_plan_touches(x);

@@ -130,7 +130,8 @@ struct plan_limits {
 ///
 /// `place`, `age`, `length`, `repetition` and what cannot be read are refused
 /// when two of three results in a row are any of these; `others` and the little
-/// of `road` when two of three are so; `others` for a body that crosses, and
+/// of `road` when two of three are so, and who stands or creeps does not follow
+/// the first such plan of `others` either; `others` for a body that crosses, and
 /// may yet turn, when three are and the own planner would not touch it. Limits:
 /// `plan_limits`.
 ///
@@ -199,7 +200,9 @@ private:
   std::optional<foreseen_bodies::touch>
   first_touch(const judged_plan& x, const world::trajectory& plan,
               double until_s, double decel_mps2, double kept_gap_m = 0);
-  std::optional<objection> run_into(const judged_plan& x, double beside_m);
+  std::optional<objection>
+  run_into(const judged_plan& x,
+           const std::optional<foreseen_bodies::touch>& touched);
   bool own_plan_touches(const judged_plan& x);
   bool has_reason_to_brake(const judged_plan& x) const;
   std::optional<objection> brake(const judged_plan& x, bool brakes_hard,

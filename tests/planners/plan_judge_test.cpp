@@ -302,6 +302,17 @@ TEST_CASE_FIXTURE(judged_drive, "a plan that creeps into a standing car is "
   CHECK(s_m + vehicle_params{}.front_m < rear_m);
 }
 
+TEST_CASE_FIXTURE(judged_drive, "who stands close behind a car follows not "
+                                "even the first plan that moves it on") {
+  see_car(s_m + vehicle_params{}.front_m + 0.3 + 2.25, 0, 0, 0);
+  speed_mps = 0;
+  const auto first = ask(plan(0.3, 0, 0.5));
+  CHECK(!first.usable);
+  CHECK(!first.refused);
+  CHECK(first.useless->check == "others");
+  CHECK(ask(plan(0.3, 0, 0.5)).refused->check == "others");
+}
+
 TEST_CASE_FIXTURE(judged_drive, "a plan into a standing car is refused also "
                                 "when the own car is nearer than it should") {
   see_car(s_m + vehicle_params{}.front_m + 0.4 + 2.25, 0, 0, 0);
