@@ -166,7 +166,7 @@ std::string draw_policies(lottery of) {
     govern += (govern.empty() ? "" : ", ") + governor;
   };
   if (of.happens(0.3))
-    add(of.happens(0.5)
+    add(of.happens(0.3)
             ? "{ name = \"redundancy\" }"
             : fmt::format("{{ name = \"redundancy\", hedge_after = \"{}ms\" }}",
                           of.whole(2, 9) * 5));

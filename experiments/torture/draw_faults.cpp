@@ -65,7 +65,7 @@ std::string draw_provider(const drawn_town& town, std::int64_t number,
       number, of.number(0, east_m, 0), of.number(0, north_m, 0), radius_m);
   if (of.happens(0.2))
     text += fmt::format("radio = \"r{}\"\n", number);
-  if (of.happens(0.2)) // it alone is cut off for a while
+  if (of.happens(0.3)) // it alone is cut off for a while
     text += fmt::format("network = {{ profile = \"{}\", {} }}\n",
                         of.one_of<std::string_view>(profiles),
                         draw_outage_list(town, of));

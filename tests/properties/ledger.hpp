@@ -78,13 +78,12 @@ struct client_diary {
     // that providers may have got at most.
     std::uint64_t on_board = 0, most_inputs = 0;
     std::uint64_t sessions = 0; // that run
-    // When the latest result of a session was left out, and none used since.
-    std::map<messages::session_id, time_point> left_out;
   };
   std::vector<entry> services;
   std::vector<std::string> broken; // promises
   experiments::conformance::trace_checker trace{duration{0}};
   std::map<messages::trace_step, int> made; // steps
+  std::map<provider_id, int> used_of;       // results; 0: of own functions
   bool ends = false;                        // its client is told nothing more
 
   void on_record(const messages::record& x) {
@@ -93,7 +92,7 @@ struct client_diary {
       ++made[step->what];
       if (step->by == messages::trace_part::selector) {
         count_work(*step);
-        judge_gap(*step);
+        used_of[step->provider] += step->what == messages::trace_step::used;
       }
       ends = ends
              || (step->by == messages::trace_part::requester
@@ -125,26 +124,6 @@ struct client_diary {
     e.most_inputs += step.what == called;
     if (step.what == first_data || step.what == end_got || step.what == standby)
       e.most_inputs += e.sessions;
-  }
-
-  // Of a provider that stops giving results of use it is said so, not that it
-  // is silent, also beside another one.
-  void judge_gap(const messages::trace_record& step) {
-    using namespace std::chrono_literals;
-    using enum messages::trace_step;
-    const auto& [name, counter] = step.services.front();
-    auto& left = of(name).left_out;
-    const messages::session_id session{step.provider, step.station, name,
-                                       counter};
-    if (step.what == messages::trace_step::left_out)
-      left[session] = step.at;
-    if (step.what == used)
-      left.erase(session);
-    constexpr auto two_periods = 100ms;
-    const auto known = left.find(session);
-    if (step.what == end_got && known != left.end() && known->second < step.at
-        && step.at - known->second <= two_periods && step.detail == "qos_gap")
-      broken.push_back("who gave what is of no use ended for a gap");
   }
 
   /// Once a second.

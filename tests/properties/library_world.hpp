@@ -412,7 +412,7 @@ struct library_world {
     side->on_lost(dead.peer(), now());
   }
   /// No connection tells that it is gone.
-  void silence_provider() { providers.front()->alive = false; }
+  void silence_provider(std::size_t k = 0) { providers.at(k)->alive = false; }
   /// It knows nothing of before, and has another number.
   void restart_provider() {
     constexpr provider_id::rep later = 100;

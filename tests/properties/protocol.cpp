@@ -173,6 +173,38 @@ TEST_CASE_TEMPLATE("who stands by is not called while the other one answers in "
   }
 }
 
+TEST_CASE_TEMPLATE("what is computed once for each input is offloaded like "
+                   "what is computed in a rhythm",
+                   World, actor_world, library_world) {
+  SUBCASE("on a good link") {
+    const auto book = live<World>(1, {}, 1, std::nullopt, per_input());
+    CHECK(book.remote_episodes >= 6);
+    CHECK(!book.reasons.contains(end_reason::no_data));
+  }
+  SUBCASE("on bad ones") {
+    int episodes = 0;
+    for (std::uint64_t seed = 1; seed <= 6; ++seed)
+      episodes += live<World>(seed, {0.1, 0.2, 0.2, 50ms}, 3, std::nullopt,
+                              per_input(with_two(seed % 2 == 0 ? 0ms : 20ms)))
+                      .remote_episodes;
+    CHECK(episodes > 60);
+  }
+}
+
+TEST_CASE("who stands by answers when the other one has died") {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    CAPTURE(seed);
+    library_world w{seed, {}, 2, "ideal", with_two(40ms)};
+    w.run_and_check(50s);
+    const auto before = w.diary->used_of[provider_id{2}];
+    w.silence_provider();
+    w.run_and_check(1s);
+    CHECK(w.diary->made[trace_step::called] > 0);
+    CHECK(w.diary->used_of[provider_id{2}] >= before + 30); // of 40
+    w.dismiss();
+  }
+}
+
 TEST_CASE_TEMPLATE("when the provider crashes, its vehicles go on locally at "
                    "once",
                    World, actor_world, library_world) {
@@ -191,15 +223,16 @@ TEST_CASE("when a provider dies and nothing says so, its vehicle has a fresh "
     library_world w{
         seed, {}, 2, "paper_5g", with_two(seed % 2 == 0 ? 0ms : 20ms)};
     w.run_and_check(from_seconds(random.between(5, 60)));
-    w.silence_provider();
+    const auto dead = seed / 2 % 2; // also the one that stands by
+    w.silence_provider(dead);
     const auto since = w.now();
     w.run_and_check(20s);
     for (const auto& [session, left] : w.book->left)
-      CHECK((session.provider != provider_id{1}
+      CHECK((session.provider != provider_id{dead + 1}
              || left <= since + protocol::confirmation_timeout));
     w.dismiss();
     for (const auto& [session, left] : w.book->left)
-      CHECK((session.provider != provider_id{1}
+      CHECK((session.provider != provider_id{dead + 1}
              || left <= since + protocol::confirmation_timeout));
     w.diary->finish();
     for (const auto& text : w.diary->broken)

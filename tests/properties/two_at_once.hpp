@@ -39,4 +39,14 @@ inline conduct with_two(duration hedge_after) {
   return of;
 }
 
+/// Its services are computed once for each input.
+inline conduct per_input(conduct of = {}) {
+  of.service = [](const messages::service_name& name) {
+    auto made = echo_service(name);
+    made.options.per_input = true;
+    return made;
+  };
+  return of;
+}
+
 } // namespace sofof::test
