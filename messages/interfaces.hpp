@@ -107,6 +107,8 @@ using onboard_requester_actor = requester_actor::extend<
     reacts_to<ego_state>,
     // The first result of a session is in use.
     reacts_to<session_id>,
+    // The scene is safe under this response time, as this service finds it.
+    reacts_to<service_name, duration>,
     // The watchdog reports a violation, or a result was implausible.
     reacts_to<qos_violation>>;
 

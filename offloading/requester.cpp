@@ -146,6 +146,14 @@ void requester::expire(const epoch_end&, time_point now) {
 
 // -- providers ----------------------------------------------------------------
 
+void requester::on_safe_response(const messages::service_name& service,
+                                 duration longest, time_point now) {
+  pass(now);
+  assert(longest >= duration{0});
+  if (auto* known = find(service))
+    known->safe_response = longest;
+}
+
 // A list of bounded length, whatever an offer says.
 std::string
 requester::own_services_of(const messages::service_offer& offer) const {
@@ -353,6 +361,7 @@ requester::context_of(const service_state& service,
           .since = service.since,
           .needs = service.needs,
           .on_board = service.on_board,
+          .safe_response = service.safe_response,
           .future = setup_.future.get()};
 }
 

@@ -103,6 +103,10 @@ public:
   /// Where the vehicle is and how it moves.
   void on_motion(const messages::ego_state& ego) { ego_ = ego; }
 
+  /// A service has found under which response time the scene is safe.
+  void on_safe_response(const messages::service_name& service, duration longest,
+                        time_point now);
+
   /// @param from  Whoever has sent it; an offer in the name of a provider that
   ///              another peer speaks for is ignored.
   void on_offer(const messages::service_offer& offer, peer_id from,

@@ -40,6 +40,15 @@ world::cycle_cost offloaded_cost(const world::computer_options& computer,
           inputs_per_cycle * input.energy_j + options.compute.overhead_j};
 }
 
+duration worst_response(const service_options& options) {
+  const auto& limits = options.limits;
+  if (limits.max_input_age == duration::max())
+    return duration::max();
+  assert(limits.max_input_age > duration{0});
+  return limits.max_input_age + limits.max_interarrival
+         + options.compute.run_time_max;
+}
+
 messages::service_input
 vehicle_service::encode_input(messages::service_input input,
                               bool takes_over) const {
@@ -55,6 +64,11 @@ bool vehicle_service::continues(const messages::payload&,
 
 std::unique_ptr<result_judge> vehicle_service::make_judge() const {
   return believe_all();
+}
+
+std::optional<safe_response>
+vehicle_service::look_at_scene(const messages::service_input&) const {
+  return std::nullopt;
 }
 
 messages::payload

@@ -12,6 +12,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -56,11 +57,24 @@ service_options on(const world::computer_options& computer,
 world::cycle_cost offloaded_cost(const world::computer_options& computer,
                                  const service_options& options);
 
+/// @returns the longest time from what a vehicle sees to the first result that
+/// depends on it while a provider computes the service, as long as limits are
+/// kept and until the own function has taken over when they are not:
+/// max_input_age + max_interarrival + the run time of the own function;
+/// duration::max() if nothing limits the age of inputs.
+duration worst_response(const service_options& options);
+
 /// For which vehicle parts of a service are made.
 struct vehicle_context {
   station_id station = 0;
   /// The time; it stands still during a cycle unless run times are real.
   std::function<time_point()> clock = [] { return time_point{}; };
+};
+
+/// How late a vehicle may respond to its scene.
+struct safe_response {
+  duration longest{};
+  std::string_view because; ///< Who or what asks for no longer one; a literal.
 };
 
 /// A service in one vehicle. It says the same whenever it is asked: where time
@@ -91,6 +105,12 @@ public:
   /// @returns what reads and judges the results of one session; by default
   /// they are used as they are.
   virtual std::unique_ptr<result_judge> make_judge() const;
+
+  /// @param latest  The vehicle's newest input, of no session.
+  /// @returns how late a result may be while the vehicle's scene is safe;
+  /// nullopt if the service does not know, by default.
+  virtual std::optional<safe_response>
+  look_at_scene(const messages::service_input& latest) const;
 
   /// What tells a provider in the terms of the service that the vehicle ends a
   /// session; by default nothing.

@@ -18,7 +18,8 @@ service_state::service_state(onboard_service what,
                              time_point now)
     : service{std::move(what)}, needs{service.options.period,
                                       service.options.limits.max_latency,
-                                      service.options.limits.max_interarrival},
+                                      service.options.limits.max_interarrival,
+                                      worst_response(service.options)},
       on_board{world::on_board_cost(computer, service.options.compute)},
       offloaded{offloaded_cost(computer, service.options)}, since{now} {
   assert(service.own);

@@ -61,6 +61,8 @@ struct service_state {
   world::cycle_cost on_board{};  ///< Of a cycle in the vehicle.
   world::cycle_cost offloaded{}; ///< Time: of the way there alone.
   time_point since{};            ///< It has been where it is.
+  /// Under which the vehicle's scene is safe, as the service last said.
+  std::optional<duration> safe_response{};
   /// The oldest first; empty: it is local.
   std::vector<requester_session> sessions{};
   std::vector<provider_id> wanted{}; ///< Which providers shall run it.

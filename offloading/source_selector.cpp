@@ -91,10 +91,28 @@ void source_selector::on_input(const messages::service_input& input,
   }
   newest_.at = input.at;
   newest_.what = input.what;
+  if (setup_.asks_scene)
+    look_at_scene(now);
   port_.feed_local(input);
   for (auto& x : sources_)
     if (input_due(x, now) && !(x.in_use && is_standby(x)))
       feed(x, now);
+}
+
+void source_selector::look_at_scene(time_point now) {
+  const auto found = own().look_at_scene(newest_);
+  if (!found)
+    return;
+  assert(found->longest >= duration{0});
+  port_.report_safe_response(found->longest);
+  messages::scene_record seen{.at = now,
+                              .station = setup_.station,
+                              .service = setup_.service.name,
+                              .safe = found->longest,
+                              .because = std::string{found->because}};
+  if (!newest_.in_use.empty())
+    seen.response = now - used_input_at_;
+  port_.record(std::move(seen));
 }
 
 bool source_selector::input_due(const source& x, time_point now) const {
@@ -363,6 +381,7 @@ void source_selector::use(const messages::service_result& result,
   newest_.in_use = result.what;
   used_from_ = result.session;
   used_at_ = now;
+  used_input_at_ = result.timing.input_at;
   port_.use(result);
 }
 

@@ -25,6 +25,7 @@ struct selector_setup {
   onboard_service service;
   bool record_margins = false; ///< With the cycles, those of used results.
   bool trace = false;          ///< Record each step.
+  bool asks_scene = false;     ///< Under which response time it is safe.
 };
 
 /// What a selector makes others do. Nothing of this calls the selector back.
@@ -49,6 +50,8 @@ public:
   /// The first result of a session is in use.
   virtual void report_first_data(const messages::session_id& session) = 0;
   virtual void report(messages::qos_violation violation) = 0;
+  /// Under which response time the scene is safe.
+  virtual void report_safe_response(duration longest) = 0;
 
   /// The watchdog watches this session; its last result came at `last`.
   virtual void watch(const messages::session_id& session, time_point last) = 0;
@@ -140,6 +143,7 @@ private:
   std::ptrdiff_t in_use() const;
   bool is_standby(const source& x) const;
 
+  void look_at_scene(time_point now);
   bool input_due(const source& x, time_point now) const;
   bool feed(source& x, time_point now);
   void announce_roles(time_point now);
@@ -180,7 +184,8 @@ private:
   messages::session_id watched_;       // by whose name the watchdog watches
   messages::service_input newest_;     // of no session; with the result in use,
   messages::session_id used_from_;     // the session that it is of,
-  time_point used_at_;                 // and when it came
+  time_point used_at_;                 // when it came,
+  time_point used_input_at_;           // and when its input was made
   messages::work_record work_;         // since the last such record,
   time_point work_since_;              // which was then
   time_point now_ = time_point::min(); // of the latest call

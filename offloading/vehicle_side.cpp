@@ -63,6 +63,12 @@ public:
 private:
   struct service_parts;
 
+  /// Under which response time the scene is safe, as a service finds it.
+  struct scene_report {
+    messages::service_name service;
+    duration longest{};
+  };
+
   enum class timer_of { requester, selector, watchdog, own, result };
 
   struct timer {
@@ -98,10 +104,10 @@ private:
 
     service_parts(parts& owner, const vehicle_side_setup& setup,
                   const onboard_service& service)
-        : all{owner}, name{service.name}, selector{{setup.station, service,
-                                                    setup.record_margins,
-                                                    setup.trace},
-                                                   *this},
+        : all{owner}, name{service.name},
+          selector{{setup.station, service, setup.record_margins, setup.trace,
+                    setup.policy->needs_scene()},
+                   *this},
           qos{service.options.limits}, own{cycle(setup, service), wants} {}
 
     cycle_setup cycle(const vehicle_side_setup& setup,
@@ -164,6 +170,10 @@ private:
     }
     void report(messages::qos_violation violation) override {
       all.reports_.emplace_back(std::move(violation));
+    }
+
+    void report_safe_response(duration longest) override {
+      all.reports_.emplace_back(scene_report{name, longest});
     }
 
     void watch(const messages::session_id& session, time_point last) override {
@@ -239,6 +249,9 @@ private:
 
   void handle(const messages::session_id& given_first_data) {
     requester_->on_first_data(given_first_data, now_);
+  }
+  void handle(const scene_report& found) {
+    requester_->on_safe_response(found.service, found.longest, now_);
   }
   void handle(const messages::qos_violation& violation) {
     requester_->on_violation(violation, now_);
@@ -321,8 +334,9 @@ private:
   timer_list<timer> timers_;
   std::vector<std::unique_ptr<service_parts>> services_;
   std::optional<requester> requester_;
-  /// First data and violations that it has not heard of yet.
-  std::vector<std::variant<messages::session_id, messages::qos_violation>>
+  /// First data, violations and times that it has not heard of yet.
+  std::vector<
+      std::variant<messages::session_id, messages::qos_violation, scene_report>>
       reports_;
   peer_id answering_{}; // whose response is handled
 };

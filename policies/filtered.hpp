@@ -38,6 +38,7 @@ public:
     choice_->observe(outcome);
   }
   double epoch_s() const override { return choice_->epoch_s(); }
+  bool needs_scene() const override { return choice_->needs_scene(); }
   std::string snapshot() const override { return choice_->snapshot(); }
   std::optional<std::string> restore(std::string_view text) override {
     return choice_->restore(text);

@@ -4,6 +4,7 @@
 #include "base/options/option_helpers.hpp"
 #include "policies/registry.hpp"
 
+#include <algorithm>
 #include <cassert>
 
 namespace sofof::policies {
@@ -40,6 +41,11 @@ double governed_lodm::epoch_s() const {
     if (const auto s = next->epoch_s(); s > 0 && (least == 0 || s < least))
       least = s;
   return least;
+}
+
+bool governed_lodm::needs_scene() const {
+  return whole_->needs_scene()
+         || std::ranges::any_of(governors_, &governor::needs_scene);
 }
 
 void governed_lodm::visit_options(option_visitor& s) {

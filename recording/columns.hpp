@@ -51,6 +51,11 @@ struct claim_row {
   }
 };
 
+struct scene_row {
+  const messages::scene_record& x;
+  time_point start;
+};
+
 struct trace_row {
   const messages::trace_record& x;
   time_point start;
@@ -189,6 +194,15 @@ inline constexpr csv_column<claim_row> of_claims[]{
     {"enters_s", [](const auto& r) { return r.at(r.x.enters); }},
     {"leaves_s", [](const auto& r) { return r.at(r.x.leaves); }},
     {"kept", [](const auto& r) { return r.x.was_kept; }},
+};
+
+inline constexpr csv_column<scene_row> of_scenes[]{
+    {"t_s", [](const auto& r) { return seconds(r.x.at - r.start); }},
+    {"station", [](const auto& r) { return r.x.station.value(); }},
+    {"service", [](const auto& r) { return r.x.service.view(); }},
+    {"safe_ms", [](const auto& r) { return milliseconds(r.x.safe); }},
+    {"because", [](const auto& r) { return std::string_view{r.x.because}; }},
+    {"response_ms", [](const auto& r) { return milliseconds(r.x.response); }},
 };
 
 inline constexpr csv_column<trace_row> of_trace[]{

@@ -100,6 +100,12 @@ void result_files::write(const messages::claim_record& x) {
   claims_->write({x, {"", start_}});
 }
 
+void result_files::write(const messages::scene_record& x) {
+  if (!scenes_)
+    scenes_.emplace(folder_ / "scene.csv", columns::of_scenes);
+  scenes_->write({x, start_});
+}
+
 void result_files::write(const messages::air_record& x) {
   if (pcap_)
     pcap_->write(x);
@@ -133,6 +139,8 @@ void result_files::flush() {
     margins_->flush();
   if (claims_)
     claims_->flush();
+  if (scenes_)
+    scenes_->flush();
   if (trace_)
     trace_->flush();
   events_.flush();
@@ -152,6 +160,8 @@ void result_files::finish(const metrics& all, const run_info& run,
     margins_->close();
   if (claims_)
     claims_->close();
+  if (scenes_)
+    scenes_->close();
   if (trace_)
     trace_->close();
   events_.close();

@@ -29,7 +29,8 @@ constexpr std::string_view files_of_a_run[] = {
     "distributions.csv", "cpu.csv",          "cpu.csv.tmp",
     "margins.csv",       "load.csv",         "load.csv.tmp",
     "octets.csv",        "octets.csv.tmp",   "disturbed.csv",
-    "disturbed.csv.tmp", "claims.csv",       "protocol_trace.csv"};
+    "disturbed.csv.tmp", "claims.csv",       "protocol_trace.csv",
+    "scene.csv"};
 
 bool is_provider_map(std::string_view name) {
   if (!name.starts_with(provider_map_prefix))

@@ -60,6 +60,7 @@ public:
     what_->observe(x);
   }
   double epoch_s() const override { return what_->epoch_s(); }
+  bool needs_scene() const override { return what_->needs_scene(); }
   std::string snapshot() const override { return what_->snapshot(); }
   std::optional<std::string> restore(std::string_view text) override {
     return what_->restore(text);

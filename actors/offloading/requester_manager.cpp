@@ -25,7 +25,7 @@ struct requester_manager_state {
     links.emplace(self, setup);
     selector.emplace(offloading::selector_setup{setup.station, setup.service,
                                                 setup.record_margins,
-                                                setup.trace},
+                                                setup.trace, setup.asks_scene},
                      *links);
     links->start(std::move(setup));
   }

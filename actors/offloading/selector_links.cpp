@@ -79,6 +79,10 @@ void selector_links::report(messages::qos_violation violation) {
   self_->send(requester_, std::move(violation));
 }
 
+void selector_links::report_safe_response(duration longest) {
+  self_->send(requester_, service_, longest);
+}
+
 void selector_links::watch(const messages::session_id& session,
                            time_point last) {
   self_->send(watchdog_, session, last);

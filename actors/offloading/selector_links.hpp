@@ -38,6 +38,7 @@ public:
   void announce_source(bool remote) override;
   void report_first_data(const messages::session_id& session) override;
   void report(messages::qos_violation violation) override;
+  void report_safe_response(duration longest) override;
   void watch(const messages::session_id& session, time_point last) override;
   void watch_arrival(const messages::arrival& result) override;
   void watch_useless(const messages::session_id& session,

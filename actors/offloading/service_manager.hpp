@@ -21,6 +21,7 @@ struct requester_manager_setup {
   messages::recorder_actor recorder;
   bool record_margins = false; ///< With the cycles, those of used results.
   bool trace = false;          ///< Record each step.
+  bool asks_scene = false;     ///< Under which response time it is safe.
 };
 
 /// Owns the local instance and the watchdog, and uses results by the rules of

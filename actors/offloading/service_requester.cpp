@@ -41,9 +41,9 @@ struct requester_state {
     auto service = in_vehicle(what.service, {setup.station, clock_of(self)});
     const auto client = what.spawn_client(self->system(), vehicle);
     const auto manager = spawn_requester_manager(
-        self->system(),
-        {setup.station, service, own_function(setup, service), client, self,
-         setup.recorder, setup.record_margins, setup.trace});
+        self->system(), {setup.station, service, own_function(setup, service),
+                         client, self, setup.recorder, setup.record_margins,
+                         setup.trace, setup.lodm->needs_scene()});
     if (client != vehicle) // as its own client
       self->link_to(client);
     self->link_to(manager);
@@ -100,6 +100,9 @@ requester(requester_impl::stateful_pointer<requester_state> self,
       [self](const messages::ego_state& x) { self->state.rules->on_motion(x); },
       [self](const messages::session_id& session) {
         self->state.rules->on_first_data(session, now(self));
+      },
+      [self](const messages::service_name& service, duration longest) {
+        self->state.rules->on_safe_response(service, longest, now(self));
       },
       [self](const messages::qos_violation& violation) {
         self->state.rules->on_violation(violation, now(self));

@@ -40,6 +40,7 @@ public:
     service_type::visit_options(s);
     s.table("planner",
             [this](option_visitor& t) { planner_.visit_options(t); });
+    s.table("rss", [this](option_visitor& t) { rss_.visit_options(t); });
   }
 
   offloading::service in(const service_world& world) const override {
@@ -50,7 +51,7 @@ public:
         !world.crossings_granted);
     auto shared = std::make_shared<const planning_world>(
         world.streets, world.where, world.car, world.crossings_granted,
-        world.eyes, planner_, std::move(roads));
+        world.eyes, planner_, std::move(roads), rss_);
     return {.name = name(),
             .options = options,
             .in_vehicle =
@@ -73,6 +74,7 @@ public:
 
 private:
   planner_options planner_;
+  planners::rss_assumptions rss_;
 };
 
 } // namespace

@@ -141,6 +141,18 @@ struct claim_record {
   bool was_kept = false;     ///< Else it was given up before.
 };
 
+/// How late a vehicle responds to its scene, and how late it may.
+struct scene_record {
+  time_point at;
+  station_id station = 0;
+  service_name service; ///< That has looked.
+  duration safe{};      ///< The longest response time that is safe.
+  std::string because;  ///< Who or what asks for no longer one.
+  /// Since when what the result in use was made from was seen; nullopt: there
+  /// is no result yet.
+  std::optional<duration> response{};
+};
+
 /// A vehicle has taken its first plan from another source into use.
 struct plan_switch_record {
   time_point at;
@@ -166,8 +178,8 @@ struct collision_record {
 using record =
     std::variant<event_record, decision_record, cycle_record, work_record,
                  episode_record, track_record, safety_record, collision_record,
-                 drive_record, trip_record, claim_record, plan_switch_record,
-                 air_record, trace_record>;
+                 drive_record, trip_record, claim_record, scene_record,
+                 plan_switch_record, air_record, trace_record>;
 
 /// Gets the records of a run; implemented by whoever keeps them.
 class record_sink {

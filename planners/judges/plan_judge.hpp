@@ -131,9 +131,9 @@ struct plan_limits {
 /// `place`, `age`, `length`, `repetition` and what cannot be read are refused
 /// when two of three results in a row are any of these; `others` and the little
 /// of `road` when two of three are so, and who stands or creeps does not follow
-/// the first such plan of `others` either; `others` for a body that crosses, and
-/// may yet turn, when three are and the own planner would not touch it. Limits:
-/// `plan_limits`.
+/// the first such plan of `others` either; `others` for a body that crosses,
+/// and may yet turn, when three are and the own planner would not touch it.
+/// Limits: `plan_limits`.
 ///
 /// No heap after the first results.
 class plan_judge {

@@ -4,6 +4,8 @@
 // Scalable Self-driving Cars", arXiv 1708.06374v6.
 #pragma once
 
+#include "base/options/option_visitor.hpp"
+
 namespace sofof::planners {
 
 /// How vehicles move at worst in one direction; named after IEEE 2846-2022.
@@ -11,6 +13,14 @@ struct rss_motion {
   double accel_max_mps2 = 1.5; ///< While they respond.
   double brake_min_mps2 = 4;   ///< After that, until they stand.
   double brake_max_mps2 = 8;   ///< Of who is ahead.
+
+  void visit_options(option_visitor& s) {
+    s.field("accel_max_mps2", accel_max_mps2, {0.01, 20});
+    s.field("brake_min_mps2", brake_min_mps2, {0.01, 20});
+    s.field("brake_max_mps2", brake_max_mps2, {0.01, 20});
+    if (brake_max_mps2 < brake_min_mps2)
+      s.refuse("brake_max_mps2", "must not be less than `brake_min_mps2`.");
+  }
 };
 
 /// What is assumed of the own vehicle and of others.
@@ -18,6 +28,12 @@ struct rss_assumptions {
   rss_motion lon{};              ///< Along the way.
   rss_motion lat{0.2, 0.8, 0.8}; ///< Across.
   double others_response_s = 1;  ///< > 0.
+
+  void visit_options(option_visitor& s) {
+    s.table("lon", [this](option_visitor& t) { lon.visit_options(t); });
+    s.table("lat", [this](option_visitor& t) { lat.visit_options(t); });
+    s.field("others_response_s", others_response_s, {0.01, 10});
+  }
 };
 
 /// @returns the farthest place that a vehicle reaches which responds within a

@@ -99,12 +99,12 @@ safe_response beside_or_along(const seen_body& o, double own_mps,
 
 /// Who comes from the side.
 std::optional<safe_response> crossing(const seen_body& o, double own_mps,
-                                      bool granted,
+                                      bool has_priority,
                                       const rss_assumptions& assumed) {
   const auto stop_s = longest_response_s(own_mps, o.ahead_m, assumed.lon);
-  if (o.beside_m <= 0 && (o.speed_mps < stands_mps || !granted))
+  if (o.beside_m <= 0 && (o.speed_mps < stands_mps || !has_priority))
     return safe_response{stop_s, "crossing"};
-  if (granted || o.nearing_mps <= stands_mps)
+  if (has_priority || o.nearing_mps <= stands_mps)
     return std::nullopt;
   // Along its own way to the own lane.
   const auto room_m = o.beside_m * o.speed_mps / o.nearing_mps;
@@ -129,11 +129,11 @@ safe_response longest_safe_response(const safety_scene& x,
   };
   const look from{x, car};
   const auto own_mps = from.along_mps();
-  if (x.seen.stop_at_m)
-    take({longest_response_s(own_mps, *x.seen.stop_at_m - from.front_m(),
+  if (x.stop_at_m)
+    take({longest_response_s(own_mps, *x.stop_at_m - from.front_m(),
                              assumed.lon),
           "line"});
-  for (const auto& o : x.seen.objects) {
+  for (const auto& o : x.objects) {
     // Farther away nobody matters, if both come as fast as they can.
     const auto farthest =
         20 + farthest_m(own_mps, most_s, assumed.lon)
@@ -143,8 +143,7 @@ safe_response longest_safe_response(const safety_scene& x,
       continue;
     if (body->is_along)
       take(beside_or_along(*body, own_mps, assumed));
-    else if (const auto one =
-                 crossing(*body, own_mps, x.crossings_granted, assumed))
+    else if (const auto one = crossing(*body, own_mps, x.has_priority, assumed))
       take(*one);
   }
   assert(least.longest_s >= 0 && least.longest_s <= most_s);

@@ -6,6 +6,8 @@
 #include "world/sensing/perception.hpp"
 #include "world/vehicle/vehicle.hpp"
 
+#include <optional>
+#include <span>
 #include <string_view>
 
 namespace sofof::planners {
@@ -17,10 +19,12 @@ struct safety_scene {
   double d_m = 0;        ///< Likewise, left of the lane's middle.
   double turned_rad = 0; ///< Its heading against the lane.
   double speed_mps = 0;  ///< ≥ 0.
-  const world::perception& seen;
-  /// Else drivers judge crossings: whoever comes from the side has priority
+  std::span<const world::perceived_object> objects{};
+  /// Where its front has to stop on the way; nullopt: nowhere.
+  std::optional<double> stop_at_m{};
+  /// At crossings before that place; else whoever comes from the side has it,
   /// unless it can stop.
-  bool crossings_granted = false;
+  bool has_priority = false;
 };
 
 /// How long the response may take, and for whose sake not longer.
@@ -34,9 +38,9 @@ struct safe_response {
 /// * who drives along the way, or against it, is safe if the distance along
 ///   *or* across is (definitions 1, 2, 6);
 /// * who comes from the side, and could not stop before the own lane, is safe
-///   if the own vehicle can stop before it: it has priority (definitions 16 to
-///   18). Where crossings are granted, a grant is priority given, and a line
-///   that is not granted is a place to stop at;
+///   if the own vehicle has priority or can stop before it (definitions 16 to
+///   18). A grant is priority given, as is a drive through a crossing that was
+///   agreed; a line before one that is not granted is a place to stop at;
 /// * who stands in the own lane, however turned, is a place to stop at;
 /// * who is behind has to keep its distance itself.
 ///

@@ -85,6 +85,9 @@ struct local_context {
   time_point since{};      ///< When it came there.
   service_needs needs{};
   world::cycle_cost on_board{}; ///< Of a cycle that is planned in the vehicle.
+  /// The longest response time under which the scene is safe; nullopt: the
+  /// service does not say.
+  std::optional<duration> safe_response{};
   /// Only where a run can tell; null elsewhere.
   const channel_oracle* future = nullptr;
   /// Where it runs, in case a filter keeps that from `providers`:

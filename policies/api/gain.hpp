@@ -13,6 +13,10 @@ struct service_needs {
   duration period{};
   duration max_latency{};      ///< From the begin of a cycle to its result.
   duration max_interarrival{}; ///< Between two results.
+  /// The longest time from what a sensor sees to the first result that depends
+  /// on it, as long as limits are kept, and until the vehicle's own function
+  /// has taken over when they are not; duration::max(): they do not bound it.
+  duration worst_response = duration::max();
 };
 
 /// What the parts of a cost count, without unit, each ≥ 0.

@@ -25,6 +25,9 @@ public:
   /// As `policy::epoch_s`.
   virtual double epoch_s() const { return 0; }
 
+  /// As `policy::needs_scene`.
+  virtual bool needs_scene() const { return false; }
+
   /// Lists the options once (base/options/option_visitor.hpp).
   virtual void visit_options(option_visitor&) {}
 

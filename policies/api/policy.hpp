@@ -70,6 +70,10 @@ public:
   /// decided together.
   virtual double epoch_s() const { return 0; }
 
+  /// @returns whether it is to be told under which response time a vehicle's
+  /// scene is safe: `local_context::safe_response`.
+  virtual bool needs_scene() const { return false; }
+
   /// @returns what it has learned, as text for `restore`; empty for nothing.
   virtual std::string snapshot() const { return {}; }
   /// Takes up what another one of this kind and options has learned.

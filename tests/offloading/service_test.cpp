@@ -95,6 +95,16 @@ TEST_CASE("what a requester needs of a service follows from its options and "
   CHECK(state.since == at(1s));
 }
 
+TEST_CASE("the worst response through a provider is that of the oldest input, "
+          "the longest gap, and the own function's run time") {
+  auto options = echo_options();
+  options.limits = {50ms, 100ms, 500ms};
+  options.compute.run_time_max = 45ms;
+  CHECK(offloading::worst_response(options) == 645ms);
+  options.limits.max_input_age = duration::max(); // no limit
+  CHECK(offloading::worst_response(options) == duration::max());
+}
+
 TEST_CASE("the phase of an own function is drawn within its period, by its "
           "name") {
   const random_stream noise{1, "vehicle"};

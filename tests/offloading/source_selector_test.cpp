@@ -68,7 +68,9 @@ offloading::selector_setup numbers_setup() {
 struct diary final : offloading::selector_port {
   std::vector<std::string> lines;
   std::string detail; ///< Of the latest event.
+  std::optional<duration> safe;
   std::vector<work_record> work;
+  std::vector<scene_record> scenes;
 
   void write(std::string line) { lines.push_back(std::move(line)); }
   static std::string name(const session_id& x) {
@@ -98,6 +100,7 @@ struct diary final : offloading::selector_port {
         (x.breach == qos_breach::implausible ? "implausible: " : "violation: ")
         + name(x.session));
   }
+  void report_safe_response(duration longest) override { safe = longest; }
   void watch(const session_id& x, time_point) override {
     write("watch " + name(x));
   }
@@ -113,6 +116,8 @@ struct diary final : offloading::selector_port {
     }
     if (const auto* done = std::get_if<work_record>(&x))
       work.push_back(*done);
+    if (const auto* seen = std::get_if<scene_record>(&x))
+      scenes.push_back(*seen);
   }
   void wake_at(time_point t, std::uint64_t number) override {
     wakes.emplace_back(t, number);
@@ -122,6 +127,21 @@ struct diary final : offloading::selector_port {
 };
 
 using lines = std::vector<std::string>;
+
+/// Numbers that are milliseconds under which the scene is safe; 0: unknown.
+struct numbers_of_a_scene final : offloading::vehicle_service {
+  std::shared_ptr<offloading::service_function> make_function() const override {
+    return nullptr;
+  }
+  std::optional<offloading::safe_response>
+  look_at_scene(const service_input& latest) const override {
+    const auto number = latest.what.as<echo>()->number;
+    if (number == 0)
+      return std::nullopt;
+    return offloading::safe_response{std::chrono::milliseconds{number},
+                                     "follow"};
+  }
+};
 
 struct selecting {
   const session_id own{0, 101, "numbers", 0};
@@ -348,4 +368,29 @@ TEST_CASE_FIXTURE(selecting, "own results that are used and inputs that are "
   CHECK(port.work[1].inputs == 1);
   selector.record_work();
   CHECK(port.work.size() == 2);
+}
+
+TEST_CASE("at each input it is told under which response time the scene is "
+          "safe, where somebody asks and the service knows") {
+  for (const auto asked : {false, true}) {
+    auto setup = numbers_setup();
+    setup.service.own = std::make_shared<numbers_of_a_scene>();
+    setup.asks_scene = asked;
+    diary port;
+    source_selector selector{setup, port};
+    const session_id own{0, 101, "numbers", 0};
+    selector.on_input({own, at(0s), of(0)}, at(0s));
+    CHECK(!port.safe);
+    service_result first{own, 1, at(20ms), of(1)};
+    first.timing.input_at = at(0s);
+    selector.on_result(first, at(25ms));
+    selector.on_input({own, at(50ms), of(700)}, at(50ms));
+    CHECK(port.safe == (asked ? std::optional<duration>{700ms} : std::nullopt));
+    CHECK(port.scenes.size() == (asked ? 1 : 0));
+    for (const auto& seen : port.scenes) {
+      CHECK(seen.safe == 700ms);
+      CHECK(seen.because == "follow");
+      CHECK(seen.response == 50ms);
+    }
+  }
 }

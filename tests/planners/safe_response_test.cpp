@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,21 +30,22 @@ struct on_a_street {
   double speed_mps = 10;
   double d_m = 0;
   double turned_rad = 0;
-  perception seen;
-  bool crossings_granted = false;
+  std::vector<perceived_object> objects;
+  std::optional<double> stop_at_m;
+  bool has_priority = false;
   vehicle_params car;
   rss_assumptions assumed;
 
   double front_m() const { return 100 + car.front_m; }
 
   void see(point where, double heading_rad, double its_speed_mps) {
-    seen.objects.push_back({where, heading_rad, its_speed_mps, 0, 4.5, 1.8});
+    objects.push_back({where, heading_rad, its_speed_mps, 0, 4.5, 1.8});
   }
 
   safe_response look() const {
-    return longest_safe_response(
-        {*way, 100, d_m, turned_rad, speed_mps, seen, crossings_granted},
-        assumed, car, most_s);
+    return longest_safe_response({*way, 100, d_m, turned_rad, speed_mps,
+                                  objects, stop_at_m, has_priority},
+                                 assumed, car, most_s);
   }
 };
 
@@ -87,7 +89,7 @@ TEST_CASE_FIXTURE(on_a_street, "who comes the other way is no matter in its "
                                "own lane, and in the vehicle's lane it is") {
   see({front_m() + 60, 3.5}, half_turn, 10);
   CHECK(look().longest_s > 1);
-  seen.objects.clear();
+  objects.clear();
   see({front_m() + 40, 0}, half_turn, 10);
   CHECK(look().longest_s < 0.5);
   CHECK(look().because == "oncoming");
@@ -105,12 +107,12 @@ TEST_CASE_FIXTURE(on_a_street, "a car beside the vehicle counts when one of "
 }
 
 TEST_CASE_FIXTURE(on_a_street, "who comes from the side and could not stop has "
-                               "priority, unless crossings are granted") {
+                               "priority, unless the vehicle has it") {
   see({front_m() + 20, -8}, half_turn / 2, 10);
   CHECK(look().because == "crossing");
   CHECK(look().longest_s
         == doctest::Approx(longest_response_s(10, 20 - 0.9, assumed.lon)));
-  crossings_granted = true;
+  has_priority = true;
   CHECK(look().because == "free");
 }
 
@@ -122,17 +124,17 @@ TEST_CASE_FIXTURE(on_a_street, "who comes from the side and can stop, or goes "
 }
 
 TEST_CASE_FIXTURE(on_a_street, "a car that stands across the lane is a place "
-                               "to stop at, granted or not") {
+                               "to stop at, whoever has priority") {
   see({front_m() + 30, 0}, half_turn / 2, 0);
-  for (const auto granted : {false, true}) {
-    crossings_granted = granted;
+  for (const auto has_it : {false, true}) {
+    has_priority = has_it;
     CHECK(look().longest_s
           == doctest::Approx(longest_response_s(10, 30 - 0.9, assumed.lon)));
   }
 }
 
 TEST_CASE_FIXTURE(on_a_street, "so is a line that is not granted") {
-  seen.stop_at_m = front_m() + 25;
+  stop_at_m = front_m() + 25;
   CHECK(look().because == "line");
   CHECK(look().longest_s
         == doctest::Approx(longest_response_s(10, 25, assumed.lon)));
@@ -142,7 +144,7 @@ TEST_CASE_FIXTURE(on_a_street, "of several the one that asks for the quickest "
                                "response counts") {
   see({front_m() + 60, 0}, 0, 8);
   see({front_m() + 18, 0}, 0, 8);
-  seen.stop_at_m = front_m() + 80;
+  stop_at_m = front_m() + 80;
   CHECK(look().longest_s
         == doctest::Approx(follows_safely_s({18 - 2.25, 10, 8}, assumed.lon)));
 }
@@ -151,7 +153,7 @@ TEST_CASE_FIXTURE(on_a_street, "one more body never leaves more time, nor does "
                                "a higher speed on an open road") {
   test::dice random{2846};
   for (int k = 0; k < 2000; ++k) {
-    seen.objects.clear();
+    objects.clear();
     auto before_s = most_s;
     for (int n = 0; n < 5; ++n) {
       see({100 + random.between(-30, 120), random.between(-12, 12)},
@@ -161,7 +163,7 @@ TEST_CASE_FIXTURE(on_a_street, "one more body never leaves more time, nor does "
       before_s = now_s;
     }
   }
-  seen.objects.clear();
+  objects.clear();
   see({front_m() + 40, 0}, 0, 8);
   auto before_s = most_s;
   for (speed_mps = 0; speed_mps < 20; speed_mps += 0.5) {

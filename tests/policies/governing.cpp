@@ -297,3 +297,33 @@ TEST_CASE_FIXTURE(roadside,
     CHECK(backed_by(decision) == 2);
   }
 }
+
+TEST_CASE_FIXTURE(roadside, "nobody is asked while the scene leaves less time "
+                            "than a response may take, and what runs comes "
+                            "home") {
+  const auto lodm = always_with("rss");
+  CHECK(lodm->needs_scene());
+  CHECK(!always_with("hysteresis")->needs_scene());
+  add(1);
+  seen.needs.worst_response = 600ms;
+  seen.safe_response = 899ms;
+  CHECK(!goes_to(ask(*lodm)));
+  CHECK(ask(*lodm).why == "not safe under its response time");
+  seen.safe_response = 900ms;
+  CHECK(goes_to(ask(*lodm)) == 1);
+  runs_at(1);
+  seen.safe_response = 700ms;
+  CHECK(!comes_home(ask(*lodm)));
+  seen.safe_response = 699ms;
+  CHECK(comes_home(ask(*lodm)));
+}
+
+TEST_CASE_FIXTURE(roadside, "a service that knows nothing of the scene goes "
+                            "where it likes; one that does, and whose inputs "
+                            "may be of any age, stays at home") {
+  const auto lodm = always_with("rss");
+  add(1);
+  CHECK(goes_to(ask(*lodm)) == 1);
+  seen.safe_response = 1000h;
+  CHECK(!goes_to(ask(*lodm)));
+}

@@ -191,6 +191,30 @@ TEST_CASE_TEMPLATE("what is computed once for each input is offloaded like "
   }
 }
 
+TEST_CASE_TEMPLATE("whose scene is not safe under the response time of a "
+                   "provider has its services at home a moment later",
+                   World, actor_world, library_world) {
+  int episodes = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    CAPTURE(seed);
+    World w{seed, {0.1, 0.1, 0.1, 50ms}, 3, "paper_5g", within_its_scene()};
+    for (int k = 0; k < 4000; ++k) {
+      w.run_and_check(50ms);
+      const auto tight_for_a_moment =
+          tight_now_and_then::is_tight(w.now())
+          && tight_now_and_then::is_tight(w.now() - 150ms);
+      for (const auto& x : w.diary->services)
+        CHECK((!x.remote || !tight_for_a_moment));
+    }
+    w.dismiss();
+    w.diary->finish();
+    for (const auto& text : w.diary->broken)
+      FAIL_CHECK(text);
+    episodes += w.book->remote_episodes;
+  }
+  CHECK(episodes > 60);
+}
+
 TEST_CASE("who stands by answers when the other one has died") {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     CAPTURE(seed);

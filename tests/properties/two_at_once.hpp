@@ -3,8 +3,11 @@
 
 #include "policies/api/context.hpp"
 #include "tests/properties/ledger.hpp"
+#include "tests/support/option_list.hpp"
 
+#include <chrono>
 #include <memory>
+#include <optional>
 #include <string_view>
 
 namespace sofof::test {
@@ -35,6 +38,47 @@ inline conduct with_two(duration hedge_after) {
   conduct of;
   of.policy = [hedge_after] {
     return std::make_unique<two_at_once>(hedge_after);
+  };
+  return of;
+}
+
+/// A scene that is safe under every response time, and for ten seconds of each
+/// twenty under hardly any.
+struct tight_now_and_then {
+  static constexpr std::chrono::seconds half{10};
+
+  static bool is_tight(time_point now) {
+    return now.time_since_epoch() / half % 2 == 1;
+  }
+};
+
+/// Its services run at a provider only while its scene is safe under the
+/// response time.
+inline conduct within_its_scene() {
+  using namespace std::chrono_literals;
+  struct echo_with_scene final : echo_in_vehicle {
+    std::optional<offloading::safe_response>
+    look_at_scene(const messages::service_input& latest) const override {
+      const auto is_tight = tight_now_and_then::is_tight(latest.at);
+      return offloading::safe_response{is_tight ? 100ms : duration{10s},
+                                       "a clock"};
+    }
+  };
+  conduct of;
+  of.policy = [] {
+    option_list options{
+        {.texts = {{"govern.0.name", "rss"}}, .lengths = {{"govern", 1}}}};
+    auto lodm = policies::make_lodm("always");
+    lodm->visit_options(options);
+    return lodm;
+  };
+  of.service = [](const messages::service_name& name) {
+    auto made = echo_service(name);
+    made.options.limits.max_input_age = 500ms;
+    made.in_vehicle = [](const auto&) {
+      return std::make_shared<echo_with_scene>();
+    };
+    return made;
   };
   return of;
 }

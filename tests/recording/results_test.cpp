@@ -107,6 +107,24 @@ TEST_CASE("margins are written when wanted, the least ones in the summary") {
   CHECK(margin["standing_s"] == 1.2);
 }
 
+TEST_CASE("how late a vehicle may respond is a line of scene.csv, which is "
+          "absent where nobody asks") {
+  const scratch dir;
+  {
+    results r{dir.path(), run()};
+    r.on_record(scene_record{at(5s), 101, planning, 720ms, "follow", 85ms});
+    r.on_record(scene_record{at(6s), 101, planning, 5s, "free", std::nullopt});
+    r.finish(at(100s), 2, false);
+  }
+  CHECK(content_of(dir / "scene.csv")
+        == "t_s,station,service,safe_ms,because,response_ms\n"
+           "5.000000000,101,trajectory_planning,720.000000,follow,85.000000\n"
+           "6.000000000,101,trajectory_planning,5000.000000,free,\n");
+  results later{dir.path(), run()};
+  later.finish(at(100s), 2, false);
+  CHECK_FALSE(fs::exists(dir / "scene.csv"));
+}
+
 TEST_CASE(
     "claims of crossings are lines of claims.csv, which is absent without "
     "any") {

@@ -20,6 +20,7 @@ struct memory_sink final : messages::record_sink {
   std::vector<messages::drive_record> drives;
   std::vector<messages::trip_record> trips;
   std::vector<messages::claim_record> claims;
+  std::vector<messages::scene_record> scenes;
   std::vector<messages::plan_switch_record> plan_switches;
   std::vector<messages::air_record> air;
   std::vector<messages::trace_record> steps;
@@ -44,6 +45,7 @@ struct memory_sink final : messages::record_sink {
             [this](const messages::drive_record& r) { drives.push_back(r); },
             [this](const messages::trip_record& r) { trips.push_back(r); },
             [this](const messages::claim_record& r) { claims.push_back(r); },
+            [this](const messages::scene_record& r) { scenes.push_back(r); },
             [this](const messages::plan_switch_record& r) {
               plan_switches.push_back(r);
             },

@@ -5,6 +5,7 @@
 #include "actors/services/planning/mec_planning.hpp"
 #include "actors/services/planning/onboard_planning.hpp"
 #include "actors/services/planning/plan_request.hpp"
+#include "actors/services/planning/scene_look.hpp"
 #include "actors/services/planning/session_maneuver.hpp"
 #include "actors/services/planning/suggestion_judge.hpp"
 #include "base/protocol.hpp"
@@ -95,6 +96,11 @@ public:
     return policies::continues(here, there, step);
   }
 
+  std::optional<offloading::safe_response>
+  look_at_scene(const messages::service_input& latest) const override {
+    return look_at(latest, *world_);
+  }
+
   messages::payload
   termination_message(const messages::service_end& end, time_point,
                       const messages::cam& own) const override {
@@ -108,27 +114,6 @@ public:
 private:
   planning_world_ptr world_;
   offloading::vehicle_context vehicle_;
-};
-
-class planning_requests final : public plan_client {
-public:
-  messages::payload ask(const world::route& way,
-                        const planners::planning_input& from,
-                        const world::perception& seen, const messages::cam& own,
-                        const messages::payload& crossing) const override {
-    return messages::payload::of(plan_request{
-        way.name(), from, seen, own, crossing.as<planners::crossing_view>()});
-  }
-
-  std::optional<received_plan>
-  read(const messages::service_result& result) const override {
-    auto plan = result.what.as<world::trajectory>();
-    if (!plan)
-      return std::nullopt;
-    const auto about = result.about.as<planners::plan_report>();
-    return received_plan{std::move(plan),
-                         about ? *about : planners::plan_report{}};
-  }
 };
 
 class planning_at_provider final : public listening_service {
@@ -181,10 +166,6 @@ make_planning_in_vehicle(planning_world_ptr world,
                          offloading::vehicle_context vehicle) {
   return std::make_shared<planning_in_vehicle>(std::move(world),
                                                std::move(vehicle));
-}
-
-std::shared_ptr<const plan_client> make_plan_client() {
-  return std::make_shared<planning_requests>();
 }
 
 std::shared_ptr<offloading::provider_service>

@@ -4,6 +4,7 @@
 #include "actors/services/planning/known_roads.hpp"
 #include "actors/services/planning/planner_options.hpp"
 #include "messages/v2x/georeference.hpp"
+#include "planners/safety/rss.hpp"
 #include "world/roads/streets.hpp"
 #include "world/sensing/sensors.hpp"
 #include "world/vehicle/vehicle.hpp"
@@ -21,6 +22,7 @@ struct planning_world {
   world::sensor_params eyes{}; ///< Of each vehicle.
   planner_options options;
   std::shared_ptr<known_roads> roads;
+  planners::rss_assumptions rss{}; ///< Of the vehicle and of others.
 };
 
 using planning_world_ptr = std::shared_ptr<const planning_world>;

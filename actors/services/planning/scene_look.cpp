@@ -1,0 +1,32 @@
+// The own detections, the crossing's line, and who has priority there.
+#include "actors/services/planning/scene_look.hpp"
+
+#include "actors/services/planning/plan_request.hpp"
+#include "planners/safety/safe_response.hpp"
+
+namespace sofof::actors {
+
+std::optional<offloading::safe_response>
+look_at(const messages::service_input& latest, const planning_world& world) {
+  const auto request = latest.what.as<plan_request>();
+  const auto way = request ? world.streets->find(request->way) : nullptr;
+  if (!way)
+    return std::nullopt;
+  constexpr auto most_s = 5.0;
+  const auto& own = request->from;
+  const planners::safety_scene scene{.way = *way,
+                                     .s_m = own.s_m,
+                                     .d_m = own.d_m,
+                                     .turned_rad = own.heading_error_rad,
+                                     .speed_mps = own.speed_mps,
+                                     .objects = request->seen.objects,
+                                     .stop_at_m = request->stop_at_m(world.car),
+                                     .has_priority = world.crossings_granted
+                                                     || request->crossing};
+  const auto found =
+      planners::longest_safe_response(scene, world.rss, world.car, most_s);
+  return offloading::safe_response{from_seconds(found.longest_s),
+                                   found.because};
+}
+
+} // namespace sofof::actors

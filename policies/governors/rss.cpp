@@ -1,0 +1,75 @@
+// Governor "rss": offloads only while the scene is safe under the response time
+// that this may lead to.
+#include "policies/entry.hpp"
+
+#include <chrono>
+#include <string_view>
+#include <variant>
+
+namespace sofof::policies {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::string_view not_safe = "not safe under its response time";
+
+/// A service goes to a provider only with a margin, and comes home before the
+/// scene is not safe any more.
+class rss_governor final : public governor {
+public:
+  local_decision govern(const local_context& context,
+                        const local_decision& wanted) override;
+  double epoch_s() const override { return epoch_s_; }
+  bool needs_scene() const override { return true; }
+  void visit_options(option_visitor& s) override;
+  std::string_view name() const override { return "rss"; }
+  std::unique_ptr<governor> clone() const override {
+    return std::make_unique<rss_governor>(*this);
+  }
+
+private:
+  duration enter_margin_ = 300ms;
+  duration leave_margin_ = 100ms;
+  double epoch_s_ = 0.05;
+};
+
+local_decision rss_governor::govern(const local_context& context,
+                                    const local_decision& wanted) {
+  if (!context.safe_response || std::holds_alternative<come_home>(wanted.what))
+    return wanted;
+  const auto safe = *context.safe_response;
+  const auto worst = context.needs.worst_response;
+  const auto margin = context.current ? leave_margin_ : enter_margin_;
+  if (worst < duration::max() - margin && safe >= worst + margin)
+    return wanted;
+  const reason why{not_safe, to_seconds(safe), to_seconds(worst), "s"};
+  return context.current ? local_decision{come_home{}, why} : as_it_is(why);
+}
+
+void rss_governor::visit_options(option_visitor& s) {
+  s.field("enter_margin", enter_margin_, duration{0});
+  s.field("leave_margin", leave_margin_, duration{0});
+  if (enter_margin_ < leave_margin_)
+    s.refuse("enter_margin", "must not be less than `leave_margin`.");
+  s.field("epoch_s", epoch_s_, {1e-3, 3600});
+}
+
+} // namespace
+
+governor_entry governor_rss() {
+  return {
+      {"rss",
+       "Offloads only while the scene is safe under the response time.",
+       "longest safe response >= max_input_age + max_interarrival + first own "
+       "result + margin",
+       "the longest response time under which the vehicle's scene is safe",
+       "Dehler et al., arXiv 2606.07067, for the idea; the time by "
+       "Shalev-Shwartz et al., arXiv 1708.06374",
+       {{"enter_margin", "time", "more is safe before a provider is asked"},
+        {"leave_margin", "time", "and before the service comes home"},
+        {"epoch_s", "s", "between two looks"}}},
+      unfiltered<governor, rss_governor>};
+}
+
+} // namespace sofof::policies
