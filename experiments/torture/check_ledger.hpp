@@ -11,15 +11,21 @@
 
 namespace sofof::experiments::torture {
 
-/// When a message between a provider and a station was lost or held back, s, in
-/// order.
+/// A time, s since the start.
+struct time_span {
+  double from_s = 0, to_s = 0;
+};
+
+/// When nothing got through between a provider and a station, or what was sent
+/// was held back or fell into a burst of losses; in order, apart. A message
+/// that is lost by chance is no trouble: the protocol repeats what counts.
 using troubles =
-    std::map<std::pair<std::string, std::uint64_t>, std::vector<double>>;
+    std::map<std::pair<std::string, std::uint64_t>, std::vector<time_span>>;
 troubles troubles_of(const finished_run& run);
 
-/// @param troubled  In order, s.
-/// @returns the longest time between these two in which there was no trouble.
-double calm_within(const std::vector<double>& troubled, double from_s,
+/// @param troubled  In order, apart.
+/// @returns how long there was no trouble between these two.
+double calm_within(const std::vector<time_span>& troubled, double from_s,
                    double to_s);
 
 /// One session, as either side has closed it; once each, if all is well.
@@ -32,10 +38,14 @@ struct two_sides {
 std::vector<two_sides> sessions_of(const finished_run& run);
 
 /// @param x  Both sides have closed it.
-/// @returns the longest time for which the link carried, and one side had
-/// closed the session and the other had not; less what messages waited at most
-/// for a full cell.
+/// @returns for how long the link carried, and one side had closed the session
+/// and the other had not; less what messages waited meanwhile at most for a
+/// full cell.
 double late_s(const finished_run& run, const two_sides& x,
               const troubles& known);
+
+/// @returns the channel of a provider by its name.
+const channel::channel_profile&
+channel_to(const scenario::scenario_definition& s, const std::string& provider);
 
 } // namespace sofof::experiments::torture

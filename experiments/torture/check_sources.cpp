@@ -51,6 +51,7 @@ private:
 
   void look_at(const report::cycle_line& x) {
     check_limits(x);
+    used_[{x.of.station, x.of.service}].push_back(x.received_s);
     const auto found = episodes_.find(x.of);
     if (found == episodes_.end() && dies_at_s(run_.what, x.of.station))
       return; // nobody was there to close it
@@ -70,7 +71,6 @@ private:
              fmt::format("cycle {} was used after {}", x.cycle, last->second));
       last->second = x.cycle;
     }
-    used_[{x.of.station, x.of.service}].push_back(x.received_s);
   }
 
   void check_limits(const report::cycle_line& x) {
@@ -92,7 +92,11 @@ private:
   /// nanosecond.
   void check_gaps() {
     using who = std::pair<std::uint64_t, std::string>;
-    std::map<who, double> since; // of those that are remote now
+    struct remote {
+      double from_s;
+      session_key of;
+    };
+    std::map<who, remote> since; // of those that are remote now
     const auto look = [&](const who& w, double from_s, double to_s,
                           const session_key& of) {
       const auto limits = limits_.find(w.second);
@@ -122,12 +126,16 @@ private:
       if (!is_remote && found == since.end())
         tell("one_source", e.of, e.t_s, "it went home, and was there already");
       if (is_remote && found == since.end())
-        since.emplace(w, e.t_s);
+        since.emplace(w, remote{e.t_s, e.of});
       if (!is_remote && found != since.end()) {
-        look(w, found->second, e.t_s, e.of);
+        look(w, found->second.from_s, e.t_s, e.of);
         since.erase(found);
       }
     }
+    for (const auto& [w, x] : since) // until it died, or the run ended
+      look(w, x.from_s,
+           dies_at_s(run_.what, w.first).value_or(to_seconds(run_.what.length)),
+           x.of);
   }
 
   const finished_run& run_;

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,30 +20,26 @@ constexpr double apart_s = 0.5;
 /// A session that is open for longer on one side is counted.
 constexpr double late_limit_s = 2;
 
-/// Counts incidents of one kind, vehicle by vehicle.
+/// Counts incidents of one kind, vehicle by vehicle: what one provider's link
+/// or one direction of it met is the same incident as what another one did.
 class incidents {
 public:
   void add(std::uint64_t station, double t_s) {
-    const auto [last, is_first] = last_.try_emplace(station, t_s);
-    count_ += is_first || t_s - last->second > apart_s;
-    last->second = t_s;
+    times_[station].push_back(t_s);
   }
-  double count() const { return count_; }
+  double count() {
+    double count = 0;
+    for (auto& [station, times] : times_) {
+      std::ranges::sort(times);
+      for (std::size_t k = 0; k < times.size(); ++k)
+        count += k == 0 || times[k] - times[k - 1] > apart_s;
+    }
+    return count;
+  }
 
 private:
-  std::map<std::uint64_t, double> last_;
-  double count_ = 0;
+  std::map<std::uint64_t, std::vector<double>> times_;
 };
-
-/// @returns the channel of a provider by its name.
-const std::shared_ptr<const channel::channel_profile>&
-channel_to(const scenario::scenario_definition& s,
-           const std::string& provider) {
-  for (std::size_t k = 0; k < s.providers.size(); ++k)
-    if (s.providers[k].name == provider)
-      return s.channel_to(k);
-  return s.network.channel;
-}
 
 /// Whether what was lost at a time was lost in one direction only.
 bool is_one_way(const std::vector<channel::outage_options>& outages,
@@ -57,7 +52,7 @@ bool is_one_way(const std::vector<channel::outage_options>& outages,
 void count_messages(const finished_run& run, tally& to) {
   incidents bursts, outages, one_way, stalls;
   for (const auto& cell : run.disturbed.cells) {
-    const auto& channel = *channel_to(run.what, cell.provider);
+    const auto& channel = channel_to(run.what, cell.provider);
     const auto in_bursts = channel.burst_loss.mean_bad > duration{};
     for (const auto& x : cell.disturbed) {
       const auto t_s = to_seconds(x.at);
@@ -81,17 +76,31 @@ void count_messages(const finished_run& run, tally& to) {
   to[counted::stall] = stalls.count();
 }
 
+// Of those that had a session before.
 void count_vehicles(const finished_run& run, tally& to) {
-  for (const auto& f : run.what.fleets)
-    if (f.fails_at && *f.fails_at < run.what.length)
-      to[counted::dead_car] += static_cast<double>(f.count);
+  std::map<std::uint64_t, double> first_s;
+  for (const auto& x : run.episodes)
+    if (const auto [known, is_first] =
+            first_s.try_emplace(x.of.station, x.accepted_s);
+        !is_first)
+      known->second = std::min(known->second, x.accepted_s);
+  for (const auto& [station, since_s] : first_s)
+    if (const auto died_s = dies_at_s(run.what, station))
+      to[counted::dead_car] += since_s < *died_s;
 }
 
 void count_providers(const finished_run& run, tally& to) {
   const auto end = run.what.length;
   for (const auto& p : run.what.providers) {
-    to[counted::crash] += p.fails_at && *p.fails_at < end;
-    to[counted::reboot] += p.returns_at && *p.returns_at < end;
+    const auto had_session = [&](const report::episode_line& x) {
+      return x.of.provider == p.name && p.fails_at
+             && x.accepted_s < to_seconds(*p.fails_at);
+    };
+    if (p.fails_at && *p.fails_at < end
+        && std::ranges::any_of(run.episodes, had_session)) {
+      ++to[counted::crash];
+      to[counted::reboot] += p.returns_at && *p.returns_at < end;
+    }
     for (const auto what : {"workers", "uplink", "downlink"})
       to[counted::full] +=
           2 * run.figure(fmt::format("load.{}.{}.full_s", p.name, what));

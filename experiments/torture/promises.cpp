@@ -48,6 +48,7 @@ finished_run read_finished(const scenario::scenario_definition& what,
           report::read_episodes(folder),
           required(report::read_cycles(folder), "cycles.csv"),
           report::read_octets(folder),
+          report::read_load(folder),
           required(report::read_disturbed(folder), "disturbed.csv"),
           report::read_events(folder)};
 }

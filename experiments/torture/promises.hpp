@@ -31,6 +31,7 @@ struct finished_run {
   std::vector<report::episode_line> episodes;
   std::vector<report::cycle_line> cycles;
   std::vector<report::octets_line> octets;
+  std::vector<report::load_line> load;
   recording::load_table disturbed;
   std::vector<report::event_line> events;
   bool has_liars = false;  ///< Providers that say what they did not plan.

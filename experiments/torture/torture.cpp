@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr auto findings_name = "findings", unfinished_name = ".unfinished";
+constexpr auto findings_name = "findings", unfinished_name = ".unfinished",
+               shrunk_name = "shrunk.toml";
 constexpr int look_period_ms = 200;
 
 std::string log_name(const std::optional<shard>& part) {
@@ -75,6 +76,7 @@ public:
         next_{how.first}, seconds_{seconds_so_far()} {}
 
   torture_outcome work() {
+    finish_shrinking();
     while (!interrupted_) {
       while (trials_.size() < how_.jobs && start_next())
         ;
@@ -86,6 +88,7 @@ public:
     shown_.clear();
     done_.interrupted = interrupted_;
     trials_.clear();
+    done_.findings = findings_so_far();
     console_ << table_of(log_, how_.out / findings_name);
     return done_;
   }
@@ -106,6 +109,15 @@ private:
       if (is_ours(seed))
         sum += one.counts[counted::driven_s];
     return sum;
+  }
+
+  /// Of one seed that is tried again, that one alone.
+  std::size_t findings_so_far() const {
+    std::size_t count = 0;
+    for (const auto& [seed, one] : log_.seeds())
+      count += !one.broken.empty()
+               && (!how_.again || (how_.first <= seed && seed <= how_.last));
+    return count;
   }
 
   bool is_ours(std::uint64_t seed) const {
@@ -143,7 +155,7 @@ private:
       return;
     auto t = trials_.begin();
     for (const auto& p : pipes) {
-      const auto found = p.revents != 0 ? t->run.hear() : std::nullopt;
+      const auto found = p.revents != 0 ? t->run.poll_verdict() : std::nullopt;
       const auto seed = t->seed;
       t = found ? trials_.erase(t) : std::next(t);
       if (found)
@@ -160,9 +172,7 @@ private:
   }
 
   void keep_finding(std::uint64_t seed, const verdict& v) {
-    ++done_.findings;
-    const auto folder =
-        made(how_.out / findings_name / fmt::format("{}", seed));
+    const auto folder = made(place_of_finding(seed));
     const auto drawn = draw(seed);
     write_file(folder / "drawn.toml", drawn);
     write_file(folder / "broken.txt", sentences_of(v));
@@ -172,14 +182,42 @@ private:
                             seed, v.broken.front().promise,
                             v.broken.front().what, seed, how_.out.string())
              << std::flush;
-    const auto small = smaller(drawn, v.broken.front().promise);
-    const auto file = folder / "shrunk.toml";
+    make_small(drawn, v.broken.front().promise, folder);
+  }
+
+  // Of findings whose shrinking was interrupted.
+  void finish_shrinking() {
+    for (const auto& [seed, one] : log_.seeds()) {
+      const auto folder = place_of_finding(seed);
+      if (interrupted_ || one.broken.empty() || !is_ours(seed)
+          || !fs::exists(folder / "drawn.toml")
+          || fs::exists(folder / shrunk_name))
+        continue;
+      console_ << fmt::format("seed {} breaks {}\n", seed, one.broken);
+      make_small(draw(seed), one.broken.substr(0, one.broken.find(' ')),
+                 folder);
+    }
+  }
+
+  void make_small(const std::string& drawn, const std::string& promise,
+                  const fs::path& folder) {
+    const auto small = smaller(drawn, promise);
+    if (interrupted_)
+      return;
+    const auto file = folder / shrunk_name;
+    try_apart({small.text}, work_.path() / "shrink", folder / "run");
     write_file(file, small.text);
-    console_ << fmt::format("  in short:  sofof torture {}, {} lines, after {} "
-                            "tries\n",
-                            file.string(), std::ranges::count(small.text, '\n'),
-                            small.tries)
+    console_ << fmt::format(
+        "  in short:  sofof torture {}, {} lines, after {} tries{}\n"
+        "  its results: {}\n",
+        file.string(), std::ranges::count(small.text, '\n'), small.tries,
+        small.tries < how_.most_tries ? "" : ", no more of which were made",
+        (folder / "run").string())
              << std::flush;
+  }
+
+  fs::path place_of_finding(std::uint64_t seed) const {
+    return how_.out / findings_name / fmt::format("{}", seed);
   }
 
   shrunk smaller(const std::string& drawn, const std::string& promise) const {
@@ -194,7 +232,7 @@ private:
 
   std::string line() const {
     return fmt::format("seed {}  {:.1f} vehicle hours  {} findings", next_ - 1,
-                       seconds_ / hour_s, done_.findings);
+                       seconds_ / hour_s, findings_so_far());
   }
 
   const torture_options& how_;
@@ -222,8 +260,9 @@ torture_outcome try_scenario(const tried_scenario& what, const fs::path& out,
                              std::ostream& console) {
   load(what); // says what is wrong
   const work_folder work{made(made(out) / unfinished_name)};
-  const auto found = try_apart(what, work.path() / "one");
-  console << (found.is_good() ? "no promise is broken\n" : sentences_of(found));
+  const auto found = try_apart(what, work.path() / "one", out / "run");
+  console << (found.is_good() ? "no promise is broken\n" : sentences_of(found))
+          << "its results: " << (out / "run").string() << '\n';
   return {1, found.is_good() ? 0u : 1u, false};
 }
 

@@ -33,22 +33,23 @@ struct torture_options {
 
 struct torture_outcome {
   std::size_t tried = 0;    ///< Seeds, in this call,
-  std::size_t findings = 0; ///< of which so many break a promise.
+  std::size_t findings = 0; ///< Seeds of the log that break a promise.
   bool interrupted = false;
 };
 
 /// Tries seeds. One that breaks a promise is told at once, with the line that
 /// repeats it, and made small: findings/SEED gets the scenario as it was drawn,
-/// the small one, and what is broken. In the end a table of all that the log
-/// of the folder has is told.
-/// Precondition: this process has one thread.
+/// the small one with its results, and what is broken. In the end a table of
+/// all that the log of the folder has is told. Precondition: this process has
+/// one thread.
 /// @param interrupted  Once true, it ends soon; what is finished is kept.
 /// @throws input_error when the log cannot be read or written.
 torture_outcome try_seeds(const torture_options& how,
                           const std::atomic<bool>& interrupted,
                           std::ostream& console);
 
-/// Tries a scenario of one's own, and tells what it breaks.
+/// Tries a scenario of one's own, and tells what it breaks; `out`/run has its
+/// results then.
 /// @throws input_error when it cannot be loaded.
 torture_outcome try_scenario(const tried_scenario& what,
                              const std::filesystem::path& out,

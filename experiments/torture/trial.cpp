@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr auto complaint_name = "complaint";
+constexpr auto complaint_name = "complaint", run_name = "run";
 constexpr std::string_view broken_word = "broken ";
 /// A run needs seconds; one that goes round and round for ever is ended, and so
 /// is one that waits for ever.
@@ -46,11 +46,11 @@ verdict ended_badly(const std::string& how, const fs::path& folder) {
   return {{}, {{"it_ends", why.empty() ? how : how + ": " + why}}};
 }
 
-void say(int pipe, std::string_view text) {
+void write_all(int pipe, std::string_view text) {
   while (!text.empty()) {
     const auto count = write(pipe, text.data(), text.size());
     if (count <= 0)
-      return; // nobody listens any more
+      return; // the parent has ended
     text.remove_prefix(static_cast<std::size_t>(count));
   }
 }
@@ -68,7 +68,7 @@ void say(int pipe, std::string_view text) {
                          O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   dup2(file, STDERR_FILENO);
   try {
-    say(pipe, text_of(try_here(what, folder / "run")));
+    write_all(pipe, text_of(try_here(what, folder / run_name)));
     _exit(0);
   } catch (const std::exception& problem) {
     fmt::print(stderr, "{}\n", problem.what());
@@ -154,7 +154,13 @@ trial::~trial() {
   fs::remove_all(folder_, ignored);
 }
 
-std::optional<verdict> trial::hear() {
+void trial::keep_results(const fs::path& at) const {
+  fs::remove_all(at);
+  if (fs::exists(folder_ / run_name))
+    fs::rename(folder_ / run_name, at);
+}
+
+std::optional<verdict> trial::poll_verdict() {
   std::array<char, 4096> some{};
   const auto count = read(pipe_, some.data(), some.size());
   if (count > 0)
@@ -180,11 +186,15 @@ verdict trial::end() {
              : ended_badly("it ended without results", folder_);
 }
 
-verdict try_apart(const tried_scenario& what, const fs::path& folder) {
+verdict try_apart(const tried_scenario& what, const fs::path& folder,
+                  const fs::path& kept) {
   trial running{what, folder};
   for (;;)
-    if (auto found = running.hear())
+    if (auto found = running.poll_verdict()) {
+      if (!kept.empty())
+        running.keep_results(kept);
       return *found;
+    }
 }
 
 } // namespace sofof::experiments::torture

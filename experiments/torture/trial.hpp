@@ -47,10 +47,13 @@ public:
   /// To be polled: it has something to say.
   int pipe() const { return pipe_; }
 
-  /// Listens, until there is something to hear.
+  /// Waits until the child has written something, or has ended.
   /// @returns what became of it; nullopt while it goes on. A run that dies,
   /// needs too much time, or throws breaks the promise "it_ends".
-  std::optional<verdict> hear();
+  std::optional<verdict> poll_verdict();
+
+  /// Moves the run's results, as far as there are any, out of the folder.
+  void keep_results(const std::filesystem::path& at) const;
 
 private:
   verdict end();
@@ -62,7 +65,10 @@ private:
 };
 
 /// Runs it in a child process, and waits.
+/// @param kept  Gets the run's results, in place of what it had; empty: they
+///              are not kept.
 verdict try_apart(const tried_scenario& what,
-                  const std::filesystem::path& folder);
+                  const std::filesystem::path& folder,
+                  const std::filesystem::path& kept = {});
 
 } // namespace sofof::experiments::torture

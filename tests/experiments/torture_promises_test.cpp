@@ -147,14 +147,53 @@ TEST_CASE(
   p.change("episodes.csv", [](lines& all) {
     set(*first(all, "provider,"), 8, "29.500000000");
   });
-  p.change("disturbed.csv", [](lines& all) { all.resize(1); });
-  CHECK(p.breaks("closed_in_time"));
+  CHECK(p.breaks("closed_in_time")); // though messages are lost by chance
+}
+
+TEST_CASE("a session that the vehicle does not know, and the provider keeps "
+          "until the end, is found") {
+  planted p;
+  p.change("episodes.csv", [](lines& all) {
+    auto kept = *first(all, "provider,");
+    set(kept, 5, "4000"); // another one's counter
+    set(kept, 8, "30.000000000");
+    all.push_back(kept);
+  });
+  CHECK(p.breaks("closed_by_both"));
+}
+
+TEST_CASE("a session that the provider had not closed when it died is found, "
+          "if it had the time") {
+  for (const auto* dies : {"8s", "29.9s"}) {
+    CAPTURE(dies);
+    auto what = scenario::parse_scenario(
+        std::string{scene}.replace(scene.find("area_radius_m"), 0,
+                                   fmt::format("fails_at = \"{}\"\n", dies)),
+        "scene.toml");
+    planted p;
+    double ended_s = 0;
+    p.change("episodes.csv", [&](lines& all) {
+      const auto line = first(all, "requester,");
+      set(*line, 8, "7.900000000");
+      const auto key =
+          line->substr(line->find(','),
+                       line->find(",trajectory_planning,") - line->find(','));
+      ended_s = 7.9;
+      std::erase_if(
+          all, [&](const auto& x) { return x.starts_with("provider" + key); });
+    });
+    const auto found = check(read_finished(what, p.at.path()));
+    CHECK((std::ranges::find(found, "closed_by_both", &broken_promise::promise)
+           != found.end())
+          == (std::string_view{dies} != "8s"));
+  }
 }
 
 TEST_CASE("the link's trouble is no lateness") {
   CHECK(calm_within({}, 1, 4) == 3);
-  CHECK(calm_within({0.5, 2, 3, 7}, 1, 4) == 1);
-  CHECK(calm_within({3}, 1, 4) == 2);
+  CHECK(calm_within({{0.5, 1.5}, {2, 3}, {3.5, 7}}, 1, 4)
+        == doctest::Approx(1));
+  CHECK(calm_within({{3, 4}}, 1, 4) == 2);
 }
 
 TEST_CASE("a late result that was used is found") {
