@@ -11,6 +11,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -24,7 +26,21 @@ TYPE_TO_STRING(library_world);
 
 namespace {
 
-void check_ledger(const ledger& book) {
+/// @returns how long one side may have a session that the other one has not
+/// any more: in 5 s it is told ten times, each of which may be lost.
+duration longest_alone(const link_fault_options& faults) {
+  const auto loss = std::max(faults.loss, 0.1);
+  return from_seconds(5 / -std::log10(loss)) + 2 * faults.longest_extra_delay;
+}
+
+void check_ledger(const ledger& book, duration longest) {
+  for (const auto& [session, left] : book.left)
+    if (const auto freed = book.freed.find(session);
+        freed != book.freed.end()) {
+      CAPTURE(session.counter);
+      CHECK(to_seconds(left - freed->second) <= to_seconds(longest));
+      CHECK(to_seconds(freed->second - left) <= to_seconds(longest));
+    }
   for (const auto& [session, times] : book.closed_by_requester)
     CHECK(times == 1);
   for (const auto& [session, times] : book.closed_by_provider)
@@ -54,7 +70,7 @@ ledger live(std::uint64_t seed, const link_fault_options& faults,
   for (const auto& text : w.diary->broken)
     FAIL_CHECK(text);
   if (!crash_at)
-    check_ledger(*w.book);
+    check_ledger(*w.book, longest_alone(faults));
   for (const auto& [session, times] : w.book->closed_by_requester)
     CHECK(times == 1);
   return *w.book;
