@@ -82,7 +82,7 @@ void message_rules::finish() {
                                       ? providers_.contains(x.provider)
                                       : requesters_.contains(x.station);
     if (sender_is_traced && !sent_.contains(what))
-      found_({"M1 what is got has been sent", what, x.at});
+      found_({rule_of("M1"), what, x.at});
   }
 }
 

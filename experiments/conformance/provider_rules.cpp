@@ -12,15 +12,13 @@ namespace sofof::experiments::conformance {
 
 namespace {
 
-constexpr std::string_view only_heard =
-    "P1 only stations that are heard are spoken to";
-constexpr std::string_view one_answer = "P4 a request is answered once";
-constexpr std::string_view ended_at_once = "P8 what is over is closed at once";
-constexpr std::string_view vehicle_told = "P9 the vehicle is told of an end";
-constexpr std::string_view digests = "P10 digests come on time";
-constexpr std::string_view silent = "P12 who falls silent is forgotten";
-
-constexpr std::string_view lost = "P16 who is lost is forgotten at once";
+constexpr auto only_heard = rule_of("P1");
+constexpr auto one_answer = rule_of("P4");
+constexpr auto ended_at_once = rule_of("P8");
+constexpr auto vehicle_told = rule_of("P9");
+constexpr auto digests = rule_of("P10");
+constexpr auto silent = rule_of("P12");
+constexpr auto lost = rule_of("P16");
 
 constexpr std::string_view inside = "inside";
 
@@ -36,8 +34,8 @@ std::string forgetting(station_id station) {
 
 } // namespace
 
-void provider_rules::refute(std::string_view rule, std::string what) {
-  found_({std::string{rule}, std::move(what), at_});
+void provider_rules::refute(rule broken, std::string what) {
+  found_({broken, std::move(what), at_});
 }
 
 provider_rules::session* provider_rules::find(station& of, const step& x) {
@@ -129,13 +127,12 @@ void provider_rules::on_offer(station& of, const step& x) {
     refute(only_heard, fmt::format("an offer to station {}", x.station));
   if (of.offered && x.at - *of.offered + slack_ < protocol::offer_period
       && !of.may_offer)
-    refute("P2 an offer a second",
-           fmt::format("a second one to station {}", x.station));
+    refute(rule_of("P2"), fmt::format("a second one to station {}", x.station));
   of.offered = x.at;
   of.may_offer = false;
   for (const auto& [name, counter] : x.services)
     if (of.sessions.contains(name))
-      refute("P3 what runs is not offered",
+      refute(rule_of("P3"),
              fmt::format("{} to station {}", name.view(), x.station));
 }
 
@@ -158,8 +155,7 @@ void provider_rules::on_response(station& of, const step& x) {
     const auto runs = of.sessions.find(what.name);
     if (what.counter != 0
         && (runs == of.sessions.end() || runs->second.counter != what.counter))
-      refute("P5 what is accepted runs",
-             session_in(x.provider, x.station, what));
+      refute(rule_of("P5"), session_in(x.provider, x.station, what));
   }
   if (open != of.open.end())
     of.open.erase(open);
@@ -174,20 +170,19 @@ void provider_rules::on_begun(station& of, const step& x) {
   if (!of.is_known)
     refute(only_heard, session_in(x));
   if (!asked)
-    refute("P6 a session begins with a request", session_in(x));
+    refute(rule_of("P6"), session_in(x));
   if (counter != last_counter_ + 1)
-    refute("P7 counters rise by one",
+    refute(rule_of("P7"),
            fmt::format("{} after {}", session_in(x), last_counter_));
   if (of.sessions.contains(name))
-    refute("P6 a session begins with a request",
-           session_in(x) + ": another one runs");
+    refute(rule_of("P6"), session_in(x) + ": another one runs");
   last_counter_ = counter;
   of.sessions[name] = {.counter = counter,
                        .was_inside = of.is_inside || x.detail == inside};
   if (!of.open.empty())
     duties_.owe(
         response_to({.station = x.station, .number = of.open.begin()->first}),
-        x.at, "P5 what is accepted runs", at_);
+        x.at, rule_of("P5"), at_);
   if (!of.digest_due)
     await_digest(of, x);
 }
@@ -201,9 +196,8 @@ void provider_rules::on_digest(station& of, const step& x) {
   if (!of.digest_due || x.at < *of.digest_due)
     refute(digests, fmt::format("one to station {} too early", x.station));
   if (x.number != last_counter_)
-    refute(
-        "P11 a digest says what runs",
-        fmt::format("its last counter is {}, not {}", x.number, last_counter_));
+    refute(rule_of("P11"), fmt::format("its last counter is {}, not {}",
+                                       x.number, last_counter_));
   auto named = of.sessions.size() == x.services.size();
   for (const auto& what : x.services) {
     const auto runs = of.sessions.find(what.name);
@@ -211,7 +205,7 @@ void provider_rules::on_digest(station& of, const step& x) {
             && runs->second.counter == what.counter;
   }
   if (!named)
-    refute("P11 a digest says what runs",
+    refute(rule_of("P11"),
            fmt::format("it names {} sessions of station {}, where {} run",
                        x.services.size(), x.station, of.sessions.size()));
   of.digest_due.reset();
@@ -222,20 +216,20 @@ void provider_rules::on_digest(station& of, const step& x) {
 
 void provider_rules::on_end_sent(station& of, const step& x) {
   if (find(of, x))
-    refute("P13 what runs is closed before its vehicle is told", session_in(x));
+    refute(rule_of("P13"), session_in(x));
   duties_.settle(end_to(session_in(x)));
 }
 
 void provider_rules::on_closed(station& of, const step& x) {
   const auto* known = find(of, x);
   if (!known) {
-    refute("P14 a session is closed once", session_in(x));
+    refute(rule_of("P14"), session_in(x));
     return;
   }
   if (!known->untold)
     duties_.owe(end_to(session_in(x)), x.at, vehicle_told, at_);
   if (x.detail == "left_area" && of.is_inside)
-    refute("P15 who is inside has not left the area", session_in(x));
+    refute(rule_of("P15"), session_in(x));
   of.sessions.erase(x.services.front().name);
   of.told_until = x.at + protocol::digest_goes_on;
   duties_.settle(end_of(session_in(x)));

@@ -65,7 +65,7 @@ private:
   void must_close(const step& x, const service& name, session& what,
                   bool untold);
   void await_digest(station& of, const step& x);
-  void refute(std::string_view rule, std::string what);
+  void refute(rule broken, std::string what);
 
   duration slack_;
   breach_sink found_;

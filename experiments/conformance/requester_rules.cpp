@@ -13,18 +13,14 @@ namespace sofof::experiments::conformance {
 
 namespace {
 
-constexpr std::string_view answered = "V4 a request ends in time";
-constexpr std::string_view data_in_time = "V7 first data come in time";
-constexpr std::string_view closed_at_once = "V8 what is over is closed at once";
-constexpr std::string_view provider_told = "V9 the provider is told of an end";
-constexpr std::string_view late_answer = "V6 a late acceptance is ended";
-constexpr std::string_view unknown_result =
-    "V10 results of no session are answered";
-constexpr std::string_view unknown_named =
-    "V11 what only a digest has is ended";
-
-constexpr std::string_view started_again =
-    "V18 a provider is forgotten when its peer speaks for another one";
+constexpr auto answered = rule_of("V4");
+constexpr auto data_in_time = rule_of("V7");
+constexpr auto closed_at_once = rule_of("V8");
+constexpr auto provider_told = rule_of("V9");
+constexpr auto late_answer = rule_of("V6");
+constexpr auto unknown_result = rule_of("V10");
+constexpr auto unknown_named = rule_of("V11");
+constexpr auto started_again = rule_of("V18");
 
 std::string forgetting(provider_id id) {
   return fmt::format("forgetting provider {}", id);
@@ -38,8 +34,8 @@ std::string data_of(const std::string& session) {
 
 } // namespace
 
-void requester_rules::refute(std::string_view rule, std::string what) {
-  found_({std::string{rule}, std::move(what), at_});
+void requester_rules::refute(rule broken, std::string what) {
+  found_({broken, std::move(what), at_});
 }
 
 requester_rules::session* requester_rules::find(const step& x) {
@@ -63,8 +59,9 @@ void requester_rules::must_close(const step& x, bool untold) {
 
 void requester_rules::must_end(const step& x,
                                const messages::traced_service& what,
-                               std::string_view rule) {
-  duties_.owe(end_to(session_in(x.provider, x.station, what)), x.at, rule, at_);
+                               rule owed_by) {
+  duties_.owe(end_to(session_in(x.provider, x.station, what)), x.at, owed_by,
+              at_);
 }
 
 void requester_rules::add(const step& x, trace_place at) {
@@ -137,24 +134,23 @@ void requester_rules::on_offer(const step& x) {
 void requester_rules::on_request(const step& x) {
   auto& to = providers_[x.provider];
   if (x.number != last_request_ + 1)
-    refute("V1 request numbers rise by one",
-           fmt::format("{} after {}", x.number, last_request_));
+    refute(rule_of("V1"), fmt::format("{} after {}", x.number, last_request_));
   last_request_ = x.number;
   if (to.open_request)
-    refute("V2 one request to a provider at a time",
+    refute(rule_of("V2"),
            fmt::format("{} while {} is open", x.number, *to.open_request));
   for (const auto& [name, counter] : x.services) {
     const auto offer = to.offered.find(name);
     if (offer == to.offered.end()
         || x.at - offer->second > protocol::offer_validity)
-      refute("V3 only what is offered is asked for",
+      refute(rule_of("V3"),
              fmt::format("{} of provider {}", name.view(), x.provider));
     if (to.sessions.contains(name))
-      refute("V3 only what is offered is asked for",
+      refute(rule_of("V3"),
              fmt::format("{} runs at provider {}", name.view(), x.provider));
     const auto cools = to.cools_until.find(name);
     if (cools != to.cools_until.end() && x.at + slack_ < cools->second)
-      refute("V5 nobody is asked within its cool-down",
+      refute(rule_of("V5"),
              fmt::format("{} of provider {}", name.view(), x.provider));
     judge_others(x, name);
     to.offered.erase(name);
@@ -175,7 +171,7 @@ void requester_rules::judge_others(const step& x, const service& name) {
                           && other.asked != x.at;
     const auto starts = runs != other.sessions.end() && !runs->second.is_remote;
     if (id != x.provider && (is_asked || starts))
-      refute("V19 what moves is not asked for elsewhere",
+      refute(rule_of("V19"),
              fmt::format("{} of provider {}, while it {} provider {}",
                          name.view(), x.provider,
                          starts ? "starts at" : "is asked for of", id));
@@ -222,13 +218,12 @@ void requester_rules::on_begun(const step& x) {
   const auto& [name, counter] = x.services.front();
   const auto accepted = at.accepted.find(name);
   if (accepted == at.accepted.end() || accepted->second != counter)
-    refute("V12 a session begins with an acceptance", session_in(x));
+    refute(rule_of("V12"), session_in(x));
   if (counter <= at.last_counter)
-    refute("V13 counters of a provider rise",
+    refute(rule_of("V13"),
            fmt::format("{} after {}", session_in(x), at.last_counter));
   if (at.sessions.contains(name))
-    refute("V12 a session begins with an acceptance",
-           session_in(x) + ": another one was not closed");
+    refute(rule_of("V12"), session_in(x) + ": another one was not closed");
   at.last_counter = counter;
   at.sessions[name] = {.counter = counter};
   duties_.owe(data_of(session_in(x)), x.at + protocol::start_timeout,
@@ -238,8 +233,7 @@ void requester_rules::on_begun(const step& x) {
 void requester_rules::on_first_data(const step& x) {
   auto* known = find(x);
   if (!known || known->is_remote)
-    refute("V14 first data come once, of a session that has begun",
-           session_in(x));
+    refute(rule_of("V14"), session_in(x));
   else
     known->is_remote = true;
   duties_.settle(data_of(session_in(x)));
@@ -286,7 +280,7 @@ void requester_rules::judge_unnamed(provider& from, const step& x) {
 void requester_rules::on_unknown_result(const step& x) {
   const auto from = providers_.find(x.provider);
   if (find(x))
-    refute("V15 results of a session are not refused", session_in(x));
+    refute(rule_of("V15"), session_in(x));
   if (from == providers_.end() || from->second.is_lost)
     return;
   auto& last = from->second.complained;
@@ -298,15 +292,14 @@ void requester_rules::on_unknown_result(const step& x) {
 
 void requester_rules::on_end_sent(const step& x) {
   if (find(x))
-    refute("V16 what runs is closed before its provider is told",
-           session_in(x));
+    refute(rule_of("V16"), session_in(x));
   duties_.settle(end_to(session_in(x)));
 }
 
 void requester_rules::on_closed(const step& x) {
   auto* known = find(x);
   if (!known) {
-    refute("V17 a session is closed once", session_in(x));
+    refute(rule_of("V17"), session_in(x));
     return;
   }
   if (!known->untold)

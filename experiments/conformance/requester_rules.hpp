@@ -70,8 +70,8 @@ private:
   session* find(const step& x);
   void must_close(const step& x, bool untold);
   void must_end(const step& x, const messages::traced_service& what,
-                std::string_view rule);
-  void refute(std::string_view rule, std::string what);
+                rule owed_by);
+  void refute(rule broken, std::string what);
 
   duration slack_;
   breach_sink found_;

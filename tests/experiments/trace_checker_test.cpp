@@ -75,7 +75,7 @@ struct traced {
   std::vector<std::string> broken() {
     std::vector<std::string> all;
     for (const auto& x : checker.finish())
-      all.push_back(x.rule.substr(0, x.rule.find(' ')));
+      all.push_back(std::string{x.broken.id});
     return all;
   }
 };
