@@ -12,6 +12,9 @@ namespace sofof::experiments::conformance {
 
 namespace {
 
+using messages::end_reason;
+using messages::name_of;
+
 constexpr auto only_heard = rule_of("P1");
 constexpr auto one_answer = rule_of("P4");
 constexpr auto ended_at_once = rule_of("P8");
@@ -20,13 +23,19 @@ constexpr auto digests = rule_of("P10");
 constexpr auto silent = rule_of("P12");
 constexpr auto lost = rule_of("P16");
 
+constexpr auto for_a_reason = rule_of("P17");
+
 constexpr std::string_view inside = "inside";
+const std::string a_decision = "an answer, as sessions were revoked";
 
 std::string response_to(const messages::trace_record& x) {
   return fmt::format("response {} to station {}", x.number, x.station);
 }
 std::string digest_to(station_id station) {
   return fmt::format("digest to station {}", station);
+}
+std::string new_requester_of(station_id station) {
+  return fmt::format("a new requester of station {}", station);
 }
 std::string forgetting(station_id station) {
   return fmt::format("forgetting station {}", station);
@@ -49,7 +58,9 @@ provider_rules::session* provider_rules::find(station& of, const step& x) {
 }
 
 void provider_rules::must_close(const step& x, const service& name,
-                                session& what, bool untold) {
+                                session& what, std::string_view reason,
+                                bool untold) {
+  what.may_end.insert_or_assign(std::string{reason}, x.at);
   what.untold = what.untold || untold;
   duties_.owe(end_of(session_in(x.provider, x.station, {name, what.counter})),
               x.at, ended_at_once, at_);
@@ -60,7 +71,7 @@ void provider_rules::add(const step& x, trace_place at) {
   at_ = at;
   duties_.pass(x.at);
   if (x.what == shut_down)
-    return on_shut_down();
+    return on_shut_down(x);
   if (x.what == peer_lost)
     return on_lost(x);
   auto& of = stations_[x.station];
@@ -88,7 +99,8 @@ void provider_rules::add(const step& x, trace_place at) {
     case end_got:
     case function_lost:
       if (auto* known = find(of, x))
-        must_close(x, x.services.front().name, *known, x.what == end_got);
+        must_close(x, x.services.front().name, *known, x.detail,
+                   x.what == end_got);
       return;
     default:
       return;
@@ -109,7 +121,7 @@ void provider_rules::on_heard(station& of, const step& x) {
   for (auto& [name, s] : of.sessions) {
     s.was_inside = s.was_inside || is_inside;
     if (s.was_inside && !is_inside)
-      must_close(x, name, s, false);
+      must_close(x, name, s, name_of(end_reason::left_area));
   }
 }
 
@@ -117,9 +129,10 @@ void provider_rules::on_met(station& of, const step& x) {
   of.requester = x.number;
   of.may_offer = true;
   of.last_request = 0;
-  of.open.clear();
+  drop_requests(x.station, of);
+  duties_.settle(new_requester_of(x.station));
   for (auto& [name, s] : of.sessions)
-    must_close(x, name, s, false);
+    must_close(x, name, s, name_of(end_reason::peer_lost));
 }
 
 void provider_rules::on_offer(station& of, const step& x) {
@@ -141,9 +154,19 @@ void provider_rules::on_request(station& of, const step& x) {
   if (of.is_known && x.number <= of.last_request)
     return;
   of.last_request = of.is_known ? x.number : 0;
-  of.open.clear(); // it has given that up
+  drop_requests(x.station, of); // it has given those up
+  auto& asked = of.open[x.number];
   for (const auto& what : x.services)
-    of.open[x.number].insert(what.name);
+    asked.insert(what.name);
+  duties_.owe(response_to(x),
+              of.is_known ? x.at + protocol::request_timeout : x.at, one_answer,
+              at_);
+}
+
+void provider_rules::drop_requests(station_id id, station& of) {
+  for (const auto& [number, services] : of.open)
+    duties_.settle(response_to({.station = id, .number = number}));
+  of.open.clear();
 }
 
 void provider_rules::on_response(station& of, const step& x) {
@@ -160,6 +183,7 @@ void provider_rules::on_response(station& of, const step& x) {
   if (open != of.open.end())
     of.open.erase(open);
   duties_.settle(response_to(x));
+  duties_.settle(a_decision);
 }
 
 void provider_rules::on_begun(station& of, const step& x) {
@@ -220,15 +244,35 @@ void provider_rules::on_end_sent(station& of, const step& x) {
   duties_.settle(end_to(session_in(x)));
 }
 
+// A new requester is met, and a decision is told, when what they end has been
+// closed. What a station asks for anew does not run there.
+void provider_rules::judge_reason(const station& of, const session& known,
+                                  const step& x) {
+  if (is_given(x, known.may_end))
+    return;
+  if (is_for(x, end_reason::peer_lost))
+    return duties_.owe(new_requester_of(x.station), x.at, for_a_reason, at_);
+  if (is_for(x, end_reason::revoked))
+    return duties_.owe(a_decision, x.at, for_a_reason, at_);
+  if (is_for(x, end_reason::no_data))
+    for (const auto& [number, services] : of.open)
+      if (services.contains(x.services.front().name))
+        return duties_.owe(
+            response_to({.station = x.station, .number = number}), x.at,
+            for_a_reason, at_);
+  refute(for_a_reason, fmt::format("{} as {}", session_in(x), x.detail));
+}
+
 void provider_rules::on_closed(station& of, const step& x) {
   const auto* known = find(of, x);
   if (!known) {
     refute(rule_of("P14"), session_in(x));
     return;
   }
+  judge_reason(of, *known, x);
   if (!known->untold)
     duties_.owe(end_to(session_in(x)), x.at, vehicle_told, at_);
-  if (x.detail == "left_area" && of.is_inside)
+  if (is_for(x, end_reason::left_area) && of.is_inside)
     refute(rule_of("P15"), session_in(x));
   of.sessions.erase(x.services.front().name);
   of.told_until = x.at + protocol::digest_goes_on;
@@ -236,26 +280,35 @@ void provider_rules::on_closed(station& of, const step& x) {
 }
 
 void provider_rules::on_forgotten(station& of, const step& x) {
-  if (x.detail == "cam_timeout" && x.at - of.heard <= protocol::cam_timeout)
+  const auto is_silent = is_for(x, end_reason::cam_timeout);
+  if (!is_silent && !is_given(x, of.may_go))
+    refute(for_a_reason,
+           fmt::format("station {} was forgotten as {}", x.station, x.detail));
+  if (is_silent && x.at - of.heard <= protocol::cam_timeout)
     refute(silent, fmt::format("station {} was heard {:.3f} s before",
                                x.station, to_seconds(x.at - of.heard)));
   duties_.settle(forgetting(x.station));
   duties_.settle(digest_to(x.station));
   of.is_known = false;
   of.digest_due.reset();
-  of.open.clear();
+  drop_requests(x.station, of);
   for (auto& [name, s] : of.sessions)
-    must_close(x, name, s, false);
+    must_close(x, name, s, x.detail);
 }
 
 void provider_rules::on_lost(const step& x) {
-  for (const auto& [id, of] : stations_)
-    if (of.is_known && of.requester == x.number)
+  for (auto& [id, of] : stations_)
+    if (of.is_known && of.requester == x.number) {
+      of.may_go.insert_or_assign(x.detail, x.at);
       duties_.owe(forgetting(id), x.at, lost, at_);
+    }
 }
 
-void provider_rules::on_shut_down() {
+void provider_rules::on_shut_down(const step& x) {
   duties_.drop_all();
+  for (auto& [id, of] : stations_)
+    of.may_go.insert_or_assign(std::string{name_of(end_reason::shutdown)},
+                               x.at);
   has_ended_ = true;
 }
 

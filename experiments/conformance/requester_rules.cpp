@@ -13,6 +13,9 @@ namespace sofof::experiments::conformance {
 
 namespace {
 
+using messages::end_reason;
+using messages::name_of;
+
 constexpr auto answered = rule_of("V4");
 constexpr auto data_in_time = rule_of("V7");
 constexpr auto closed_at_once = rule_of("V8");
@@ -49,12 +52,15 @@ requester_rules::session* requester_rules::find(const step& x) {
              : nullptr;
 }
 
-void requester_rules::must_close(const step& x, bool untold) {
-  auto* known = find(x);
-  if (!known)
-    return;
-  known->untold = known->untold || untold;
-  duties_.owe(end_of(session_in(x)), x.at, closed_at_once, at_);
+// What has to be closed may be closed for that, in this instant.
+void requester_rules::must_close(const step& x,
+                                 const messages::traced_service& what,
+                                 session& known,
+                                 std::initializer_list<std::string_view> why) {
+  for (const auto reason : why)
+    known.may_end.insert_or_assign(std::string{reason}, x.at);
+  duties_.owe(end_of(session_in(x.provider, x.station, what)), x.at,
+              closed_at_once, at_);
 }
 
 void requester_rules::must_end(const step& x,
@@ -90,9 +96,9 @@ void requester_rules::add(const step& x, trace_place at) {
     case result_refused:
       return on_unknown_result(x);
     case violation:
-      return must_close(x, false);
+      return on_violation(x);
     case end_got:
-      return must_close(x, true);
+      return on_end_got(x);
     case end_sent:
       return on_end_sent(x);
     case closed:
@@ -225,7 +231,7 @@ void requester_rules::on_begun(const step& x) {
   if (at.sessions.contains(name))
     refute(rule_of("V12"), session_in(x) + ": another one was not closed");
   at.last_counter = counter;
-  at.sessions[name] = {.counter = counter};
+  at.sessions[name] = {.counter = counter, .begun = x.at, .confirmed = x.at};
   duties_.owe(data_of(session_in(x)), x.at + protocol::start_timeout,
               data_in_time, at_);
 }
@@ -259,6 +265,28 @@ void requester_rules::on_digest(const step& x) {
   }
 }
 
+// A decision may come at an epoch of the policy, which is no step; but it ends
+// only what is in use. Results that came late for use are no step either: they
+// may have confirmed a session, but never make it end.
+bool requester_rules::may_close(const step& x, const session& known) const {
+  if (is_for(x, end_reason::no_data)
+      && ((!known.is_remote && x.at >= known.begun + protocol::start_timeout)
+          || x.at >= known.confirmed + protocol::confirmation_timeout))
+    return true;
+  if (is_for(x, end_reason::released))
+    return known.is_remote;
+  if (is_for(x, end_reason::handed_over))
+    return known.is_remote
+           && std::ranges::any_of(providers_, [&](const auto& other) {
+                const auto i =
+                    other.second.sessions.find(x.services.front().name);
+                return other.first != x.provider
+                       && i != other.second.sessions.end()
+                       && i->second.is_remote;
+              });
+  return is_given(x, known.may_end);
+}
+
 // A session that two digests do not name is over.
 void requester_rules::judge_unnamed(provider& from, const step& x) {
   for (auto& [name, s] : from.sessions) {
@@ -267,12 +295,12 @@ void requester_rules::judge_unnamed(provider& from, const step& x) {
     const messages::traced_service what{name, s.counter};
     if (std::ranges::count(x.services, what) > 0) {
       s.unnamed_since.reset();
+      s.confirmed = x.at;
     } else if (!s.unnamed_since) {
       s.unnamed_since = x.at;
     } else if (x.at - *s.unnamed_since >= protocol::digest_period / 2) {
       s.untold = true;
-      duties_.owe(end_of(session_in(x.provider, x.station, what)), x.at,
-                  closed_at_once, at_);
+      must_close(x, what, s, {name_of(end_reason::no_data)});
     }
   }
 }
@@ -290,6 +318,22 @@ void requester_rules::on_unknown_result(const step& x) {
   must_end(x, x.services.front(), unknown_result);
 }
 
+void requester_rules::on_violation(const step& x) {
+  if (auto* known = find(x))
+    must_close(
+        x, x.services.front(), *known,
+        {name_of(end_reason::qos_latency), name_of(end_reason::qos_input_age),
+         name_of(end_reason::qos_gap), name_of(end_reason::implausible)});
+}
+
+void requester_rules::on_end_got(const step& x) {
+  auto* known = find(x);
+  if (!known)
+    return;
+  known->untold = true;
+  must_close(x, x.services.front(), *known, {x.detail});
+}
+
 void requester_rules::on_end_sent(const step& x) {
   if (find(x))
     refute(rule_of("V16"), session_in(x));
@@ -302,6 +346,8 @@ void requester_rules::on_closed(const step& x) {
     refute(rule_of("V17"), session_in(x));
     return;
   }
+  if (!may_close(x, *known))
+    refute(rule_of("V20"), fmt::format("{} as {}", session_in(x), x.detail));
   if (!known->untold)
     must_end(x, x.services.front(), provider_told);
   auto& from = providers_[x.provider];
@@ -322,18 +368,19 @@ void requester_rules::on_lost(const step& x) {
   duties_.settle(request_of(x.provider));
   for (auto& [name, s] : lost.sessions) {
     s.untold = true;
-    duties_.owe(end_of(session_in(x.provider, x.station, {name, s.counter})),
-                x.at, closed_at_once, at_);
+    must_close(x, {name, s.counter}, s, {name_of(end_reason::peer_lost)});
   }
 }
 
 void requester_rules::on_shut_down(const step& x) {
   duties_.drop_all();
   has_ended_ = true;
-  for (const auto& [id, from] : providers_)
-    for (const auto& [name, s] : from.sessions)
-      duties_.owe(end_of(session_in(id, x.station, {name, s.counter})), x.at,
-                  closed_at_once, at_);
+  auto of = x;
+  for (auto& [id, from] : providers_) {
+    of.provider = id;
+    for (auto& [name, s] : from.sessions)
+      must_close(of, {name, s.counter}, s, {name_of(end_reason::shutdown)});
+  }
 }
 
 void requester_rules::finish() {

@@ -44,6 +44,8 @@ inline constexpr rule all_rules[]{
             "speaks for another one, and only then"},
     {"V19", "While a service moves, as a request for it is open or its session "
             "has not given data yet, no other provider is asked for it later"},
+    {"V20",
+     "A session is closed for a reason that this instant or a time gives"},
 
     {"S1", "Results come from the source that was announced, and from no "
            "other"},
@@ -64,8 +66,10 @@ inline constexpr rule all_rules[]{
     {"P2", "A station gets one offer a second, but when it comes into the area "
            "or has a new requester"},
     {"P3", "What runs for a station is not offered to it"},
-    {"P4", "A request is answered once, and not at all if its number is not "
-           "above the last one's"},
+    {"P4",
+     "A request is answered once, within 500 ms unless its station asks "
+     "anew, has a new requester or is forgotten meanwhile, and not at all "
+     "if its number is not above the last one's"},
     {"P5", "What is accepted runs, and is answered in the same instant"},
     {"P6", "A session begins with a request, and not beside another one of "
            "that station and service"},
@@ -84,6 +88,8 @@ inline constexpr rule all_rules[]{
     {"P15", "A station inside the area has not left it"},
     {"P16", "A station whose requester is lost is forgotten in the same "
             "instant"},
+    {"P17", "A session is closed, and a station forgotten, for a reason that "
+            "this instant or a time gives"},
 
     {"M1", "What is got has been sent, and a session that runs in the vehicle "
            "has begun at its provider, if the other side's steps are there"},

@@ -40,7 +40,7 @@ TEST_CASE_FIXTURE(running_vehicle, "a violation closes its session at once") {
   pass(1ms);
   vehicle(closed, session, "qos_gap");
   vehicle(end_sent, session, "qos_gap");
-  CHECK(broken() == rules{"V8"});
+  CHECK(broken() == rules{"V8", "V20"});
 }
 
 TEST_CASE_FIXTURE(running_vehicle, "a session without data is closed after a "
@@ -282,4 +282,105 @@ TEST_CASE_FIXTURE(running_vehicle, "a vehicle closes a session once") {
   CHECK(broken() == rules{"V17"});
 }
 
+// -- why a session ends -------------------------------------------------------
+
+TEST_CASE("a session that gives data ends for no reason but a decision") {
+  for (const auto* reason :
+       {"left_area", "cam_timeout", "qos_latency", "qos_input_age", "qos_gap",
+        "no_data", "refused", "peer_lost", "handed_over", "revoked",
+        "implausible", "shutdown"}) {
+    CAPTURE(reason);
+    running_vehicle x;
+    x.vehicle(first_data);
+    x.pass(2s);
+    x.vehicle(closed, session, reason);
+    CHECK(x.broken() == rules{"V20"});
+  }
+  running_vehicle released;
+  released.vehicle(first_data);
+  released.vehicle(closed, session, "released");
+  CHECK(released.broken().empty());
+}
+
+TEST_CASE("a session ends for the reason that its instant gives") {
+  const auto ends = [](trace_step cause, const char* said, const char* reason) {
+    running_vehicle x;
+    const auto of_all = cause == peer_lost || cause == shut_down;
+    x.vehicle(cause, of_all ? none : session, said);
+    x.vehicle(closed, session, reason);
+    return x.broken();
+  };
+  CHECK(ends(violation, "", "qos_gap").empty());
+  CHECK(ends(violation, "", "implausible").empty());
+  CHECK(ends(violation, "", "no_data") == rules{"V20"});
+  CHECK(ends(end_got, "revoked", "revoked").empty());
+  CHECK(ends(end_got, "revoked", "left_area") == rules{"V20"});
+  CHECK(ends(peer_lost, "", "peer_lost").empty());
+  CHECK(ends(peer_lost, "", "no_data") == rules{"V20"});
+  CHECK(ends(offer_got, "", "released") == rules{"V20"}); // without data
+}
+
+TEST_CASE_FIXTURE(running_vehicle, "a session that shuts down with its vehicle "
+                                   "says so") {
+  vehicle(shut_down, none);
+  vehicle(closed, session, "shutdown");
+  vehicle(end_sent, session, "shutdown");
+  CHECK(broken().empty());
+}
+
+TEST_CASE("a session that waits for first data ends after a second, not "
+          "earlier") {
+  const auto ends_after = [](duration d) {
+    running_vehicle x; // for 50 ms
+    x.pass(d - 50ms);
+    x.vehicle(closed, session, "no_data");
+    return x.broken();
+  };
+  CHECK(ends_after(1s).empty());
+  CHECK(ends_after(1s - 1ns) == rules{"V20"});
+}
+
+TEST_CASE("a session ends 2.25 s after the last digest that names it, not "
+          "earlier") {
+  const auto ends_after = [](duration d) {
+    running_vehicle x;
+    x.vehicle(first_data);
+    x.pass(1s);
+    x.vehicle(digest_got, session, {}, 7);
+    x.pass(d);
+    x.vehicle(closed, session, "no_data");
+    return x.broken();
+  };
+  CHECK(ends_after(2250ms).empty());
+  CHECK(ends_after(2250ms - 1ns) == rules{"V20"});
+}
+
+TEST_CASE("a session is handed over to another provider that gives data") {
+  const auto hands_over = [](bool has_data) {
+    running_vehicle x;
+    x.vehicle(first_data);
+    const auto another = [&](trace_step what,
+                             std::vector<traced_service> of = {{"plan", 2}}) {
+      x.checker.add({.at = x.now,
+                     .by = trace_part::requester,
+                     .step = ++x.last[trace_part::requester],
+                     .what = what,
+                     .provider = 4,
+                     .station = car,
+                     .number = 2,
+                     .services = std::move(of)},
+                    {0, x.checker.steps() + 1});
+    };
+    another(offer_got, plan);
+    another(request_sent, plan);
+    another(response_got);
+    another(begun);
+    if (has_data)
+      another(first_data);
+    x.vehicle(closed, session, "handed_over");
+    return x.broken();
+  };
+  CHECK(hands_over(true).empty());
+  CHECK(hands_over(false) == rules{"V20"});
+}
 } // namespace sofof::test::traces

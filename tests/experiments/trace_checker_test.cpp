@@ -52,4 +52,19 @@ TEST_CASE_FIXTURE(traced, "who stands by does so on both sides") {
   CHECK(broken() == rules{"M3"});
 }
 
+TEST_CASE("a refusal has been sent, unless its provider has never got the "
+          "request, as it has started again since") {
+  const auto is_refused = [](bool has_got_it) {
+    traced x;
+    x.provider(heard, none, "inside");
+    if (has_got_it)
+      x.vehicle(request_sent, plan).provider(request_got, plan);
+    x.vehicle(response_got, plan);
+    auto all = x.broken();
+    std::erase(all, "V3"); // nothing was offered
+    return all;
+  };
+  CHECK(is_refused(false).empty());
+  CHECK(is_refused(true) == rules{"M1"});
+}
 } // namespace sofof::test::traces
