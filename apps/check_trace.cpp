@@ -37,14 +37,15 @@ int check(const std::vector<std::filesystem::path>& folders) {
     return 0;
   }
   for (const auto& x : breaches | std::views::take(most_shown))
-    std::cout << fmt::format("{}:{}: {}: {}.\n",
+    std::cout << fmt::format("{}:{}: {}.\n",
                              trace_file_of(folders[x.at.trace]).string(),
-                             x.at.line, x.rule, x.what);
+                             x.at.line, in_words(x));
   if (breaches.size() > most_shown)
     std::cout << fmt::format("... and {} more.\n",
                              breaches.size() - most_shown);
-  std::cout << fmt::format("{} of {} steps broke a rule of docs/trace.md.\n",
-                           breaches.size(), checker.steps());
+  std::cout << fmt::format(
+      "Rules of docs/trace.md were broken {} times in {} steps.\n",
+      breaches.size(), checker.steps());
   return 1;
 }
 

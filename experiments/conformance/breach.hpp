@@ -1,6 +1,10 @@
 // A rule of the protocol that a trace does not keep.
 #pragma once
 
+#include "experiments/conformance/rules.hpp"
+
+#include <fmt/format.h>
+
 #include <compare>
 #include <cstddef>
 #include <functional>
@@ -17,10 +21,15 @@ struct trace_place {
 };
 
 struct breach {
-  std::string rule; ///< As docs/trace.md has it.
-  std::string what; ///< Who broke it, and how.
+  rule broken;
+  std::string what; ///< Which part broke it, and how.
   trace_place at;   ///< The step that did, or after which it was to be seen.
 };
+
+/// @returns the rule and how it was broken.
+inline std::string in_words(const breach& x) {
+  return fmt::format("{} {}: {}", x.broken.id, x.broken.sentence, x.what);
+}
 
 /// Takes breaches up as they are found.
 using breach_sink = std::function<void(breach&&)>;

@@ -6,9 +6,9 @@
 
 namespace sofof::experiments::conformance {
 
-void duties::owe(std::string name, time_point by, std::string_view rule,
+void duties::owe(std::string name, time_point by, rule owed_by,
                  trace_place at) {
-  owed_.insert_or_assign(std::move(name), duty{by, std::string{rule}, at});
+  owed_.insert_or_assign(std::move(name), duty{by, owed_by, at});
   soonest_ = std::min(soonest_, by);
 }
 
@@ -19,7 +19,7 @@ void duties::pass(time_point now) {
   soonest_ = time_point::max();
   for (auto i = owed_.begin(); i != owed_.end();) {
     if (i->second.by < due) {
-      found_({i->second.rule, "not done: " + i->first, i->second.at});
+      found_({i->second.owed_by, "not done: " + i->first, i->second.at});
       i = owed_.erase(i);
     } else {
       soonest_ = std::min(soonest_, i->second.by);

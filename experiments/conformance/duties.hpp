@@ -6,7 +6,6 @@
 
 #include <map>
 #include <string>
-#include <string_view>
 
 namespace sofof::experiments::conformance {
 
@@ -21,8 +20,7 @@ public:
 
   /// @param name  One that is owed already is owed by this time instead.
   /// @param at    The step that makes it a duty.
-  void owe(std::string name, time_point by, std::string_view rule,
-           trace_place at);
+  void owe(std::string name, time_point by, rule owed_by, trace_place at);
 
   /// It is done, or need not be done any more.
   void settle(const std::string& name) { owed_.erase(name); }
@@ -37,7 +35,7 @@ public:
 private:
   struct duty {
     time_point by;
-    std::string rule;
+    rule owed_by;
     trace_place at;
   };
 

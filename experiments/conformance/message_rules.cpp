@@ -49,8 +49,7 @@ std::string named(const pair_of_steps& kind, const trace_record& x) {
   return text;
 }
 
-/// A provider that was started again refuses in the name that it had before.
-bool may_be_unsent(const trace_record& x) {
+bool is_refusal(const trace_record& x) {
   return x.what == trace_step::response_got
          && std::ranges::all_of(x.services,
                                 [](const auto& s) { return s.counter == 0; });
@@ -69,20 +68,28 @@ void message_rules::add(const trace_record& x, trace_place at) {
     const auto by_sender = x.by == kind.sender;
     if (by_sender && x.what == kind.sent)
       sent_.insert(named(kind, x));
-    else if (!by_sender && x.what == kind.got && !may_be_unsent(x))
-      got_.try_emplace(
-          named(kind, x),
-          got{at, kind.sender == trace_part::provider, x.provider, x.station});
+    else if (!by_sender && x.what == kind.got)
+      got_.try_emplace(named(kind, x),
+                       got{at, kind.sender == trace_part::provider, x.provider,
+                           x.station, is_refusal(x) ? x.number : 0});
   }
+  if (x.what == trace_step::request_got)
+    asked_.emplace(x.provider, x.station, x.number);
 }
 
+// A provider that has started again refuses in the name that it had before,
+// which never got that request.
 void message_rules::finish() {
+  const auto may_be_unsent = [this](const got& x) {
+    return x.refused != 0
+           && !asked_.contains({x.provider, x.station, x.refused});
+  };
   for (const auto& [what, x] : got_) {
     const auto sender_is_traced = x.from_provider
                                       ? providers_.contains(x.provider)
                                       : requesters_.contains(x.station);
-    if (sender_is_traced && !sent_.contains(what))
-      found_({"M1 what is got has been sent", what, x.at});
+    if (sender_is_traced && !sent_.contains(what) && !may_be_unsent(x))
+      found_({rule_of("M1"), what, x.at});
   }
 }
 

@@ -5,10 +5,12 @@
 #include "experiments/conformance/breach.hpp"
 #include "messages/protocol/trace.hpp"
 
+#include <cstdint>
 #include <map>
 #include <set>
 #include <string>
 #include <string_view>
+#include <tuple>
 
 namespace sofof::experiments::conformance {
 
@@ -32,11 +34,14 @@ private:
     bool from_provider = false;
     provider_id provider = 0;
     station_id station = 0;
+    std::uint64_t refused = 0; // the number of the request, if it is a refusal
   };
 
   breach_sink found_;
   std::set<name> sent_;
   std::map<name, got> got_; // for the first time
+  /// Which requests each provider has got, by station and number.
+  std::set<std::tuple<provider_id, station_id, std::uint64_t>> asked_;
   std::set<provider_id> providers_;
   std::set<station_id> requesters_; // whose steps there are
 };

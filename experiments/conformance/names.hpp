@@ -1,11 +1,14 @@
 // What breaches call the things that steps are about.
 #pragma once
 
+#include "base/time.hpp"
 #include "messages/protocol/service.hpp"
 #include "messages/protocol/trace.hpp"
 
 #include <fmt/format.h>
 
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 
@@ -32,6 +35,19 @@ inline std::string end_of(const std::string& session) {
 }
 inline std::string end_to(const std::string& session) {
   return "service_end of " + session;
+}
+
+/// For which reasons something may end, each in one instant.
+using reasons = std::map<std::string, time_point, std::less<>>;
+
+/// @param ends  A step that tells for which reason something ends.
+inline bool is_given(const messages::trace_record& ends, const reasons& all) {
+  const auto i = all.find(ends.detail);
+  return i != all.end() && i->second == ends.at;
+}
+inline bool is_for(const messages::trace_record& ends,
+                   messages::end_reason reason) {
+  return ends.detail == messages::name_of(reason);
 }
 
 /// @param reason  The name of an end's reason.

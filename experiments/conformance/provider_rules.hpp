@@ -2,6 +2,7 @@
 #pragma once
 
 #include "experiments/conformance/duties.hpp"
+#include "experiments/conformance/names.hpp"
 #include "messages/protocol/trace.hpp"
 
 #include <map>
@@ -32,6 +33,7 @@ private:
     std::uint32_t counter = 0;
     bool was_inside = false;
     bool untold = false; // the vehicle was the one to end it
+    reasons may_end;
   };
 
   struct station {
@@ -46,6 +48,7 @@ private:
     std::map<service, session> sessions;
     std::optional<time_point> digest_due;
     time_point told_until = time_point::min();
+    reasons may_go;
   };
 
   void on_heard(station& of, const step& x);
@@ -59,13 +62,15 @@ private:
   void on_closed(station& of, const step& x);
   void on_forgotten(station& of, const step& x);
   void on_lost(const step& x);
-  void on_shut_down();
+  void on_shut_down(const step& x);
 
   static session* find(station& of, const step& x);
   void must_close(const step& x, const service& name, session& what,
-                  bool untold);
+                  std::string_view reason, bool untold = false);
+  void judge_reason(const station& of, const session& known, const step& x);
+  void drop_requests(station_id id, station& of);
   void await_digest(station& of, const step& x);
-  void refute(std::string_view rule, std::string what);
+  void refute(rule broken, std::string what);
 
   duration slack_;
   breach_sink found_;

@@ -13,18 +13,17 @@ namespace sofof::experiments::conformance {
 
 namespace {
 
-constexpr std::string_view answered = "V4 a request ends in time";
-constexpr std::string_view data_in_time = "V7 first data come in time";
-constexpr std::string_view closed_at_once = "V8 what is over is closed at once";
-constexpr std::string_view provider_told = "V9 the provider is told of an end";
-constexpr std::string_view late_answer = "V6 a late acceptance is ended";
-constexpr std::string_view unknown_result =
-    "V10 results of no session are answered";
-constexpr std::string_view unknown_named =
-    "V11 what only a digest has is ended";
+using messages::end_reason;
+using messages::name_of;
 
-constexpr std::string_view started_again =
-    "V18 a provider is forgotten when its peer speaks for another one";
+constexpr auto answered = rule_of("V4");
+constexpr auto data_in_time = rule_of("V7");
+constexpr auto closed_at_once = rule_of("V8");
+constexpr auto provider_told = rule_of("V9");
+constexpr auto late_answer = rule_of("V6");
+constexpr auto unknown_result = rule_of("V10");
+constexpr auto unknown_named = rule_of("V11");
+constexpr auto started_again = rule_of("V18");
 
 std::string forgetting(provider_id id) {
   return fmt::format("forgetting provider {}", id);
@@ -38,8 +37,8 @@ std::string data_of(const std::string& session) {
 
 } // namespace
 
-void requester_rules::refute(std::string_view rule, std::string what) {
-  found_({std::string{rule}, std::move(what), at_});
+void requester_rules::refute(rule broken, std::string what) {
+  found_({broken, std::move(what), at_});
 }
 
 requester_rules::session* requester_rules::find(const step& x) {
@@ -53,18 +52,22 @@ requester_rules::session* requester_rules::find(const step& x) {
              : nullptr;
 }
 
-void requester_rules::must_close(const step& x, bool untold) {
-  auto* known = find(x);
-  if (!known)
-    return;
-  known->untold = known->untold || untold;
-  duties_.owe(end_of(session_in(x)), x.at, closed_at_once, at_);
+// What has to be closed may be closed for that, in this instant.
+void requester_rules::must_close(const step& x,
+                                 const messages::traced_service& what,
+                                 session& known,
+                                 std::initializer_list<std::string_view> why) {
+  for (const auto reason : why)
+    known.may_end.insert_or_assign(std::string{reason}, x.at);
+  duties_.owe(end_of(session_in(x.provider, x.station, what)), x.at,
+              closed_at_once, at_);
 }
 
 void requester_rules::must_end(const step& x,
                                const messages::traced_service& what,
-                               std::string_view rule) {
-  duties_.owe(end_to(session_in(x.provider, x.station, what)), x.at, rule, at_);
+                               rule owed_by) {
+  duties_.owe(end_to(session_in(x.provider, x.station, what)), x.at, owed_by,
+              at_);
 }
 
 void requester_rules::add(const step& x, trace_place at) {
@@ -93,9 +96,9 @@ void requester_rules::add(const step& x, trace_place at) {
     case result_refused:
       return on_unknown_result(x);
     case violation:
-      return must_close(x, false);
+      return on_violation(x);
     case end_got:
-      return must_close(x, true);
+      return on_end_got(x);
     case end_sent:
       return on_end_sent(x);
     case closed:
@@ -137,24 +140,23 @@ void requester_rules::on_offer(const step& x) {
 void requester_rules::on_request(const step& x) {
   auto& to = providers_[x.provider];
   if (x.number != last_request_ + 1)
-    refute("V1 request numbers rise by one",
-           fmt::format("{} after {}", x.number, last_request_));
+    refute(rule_of("V1"), fmt::format("{} after {}", x.number, last_request_));
   last_request_ = x.number;
   if (to.open_request)
-    refute("V2 one request to a provider at a time",
+    refute(rule_of("V2"),
            fmt::format("{} while {} is open", x.number, *to.open_request));
   for (const auto& [name, counter] : x.services) {
     const auto offer = to.offered.find(name);
     if (offer == to.offered.end()
         || x.at - offer->second > protocol::offer_validity)
-      refute("V3 only what is offered is asked for",
+      refute(rule_of("V3"),
              fmt::format("{} of provider {}", name.view(), x.provider));
     if (to.sessions.contains(name))
-      refute("V3 only what is offered is asked for",
+      refute(rule_of("V3"),
              fmt::format("{} runs at provider {}", name.view(), x.provider));
     const auto cools = to.cools_until.find(name);
     if (cools != to.cools_until.end() && x.at + slack_ < cools->second)
-      refute("V5 nobody is asked within its cool-down",
+      refute(rule_of("V5"),
              fmt::format("{} of provider {}", name.view(), x.provider));
     judge_others(x, name);
     to.offered.erase(name);
@@ -175,7 +177,7 @@ void requester_rules::judge_others(const step& x, const service& name) {
                           && other.asked != x.at;
     const auto starts = runs != other.sessions.end() && !runs->second.is_remote;
     if (id != x.provider && (is_asked || starts))
-      refute("V19 what moves is not asked for elsewhere",
+      refute(rule_of("V19"),
              fmt::format("{} of provider {}, while it {} provider {}",
                          name.view(), x.provider,
                          starts ? "starts at" : "is asked for of", id));
@@ -222,15 +224,14 @@ void requester_rules::on_begun(const step& x) {
   const auto& [name, counter] = x.services.front();
   const auto accepted = at.accepted.find(name);
   if (accepted == at.accepted.end() || accepted->second != counter)
-    refute("V12 a session begins with an acceptance", session_in(x));
+    refute(rule_of("V12"), session_in(x));
   if (counter <= at.last_counter)
-    refute("V13 counters of a provider rise",
+    refute(rule_of("V13"),
            fmt::format("{} after {}", session_in(x), at.last_counter));
   if (at.sessions.contains(name))
-    refute("V12 a session begins with an acceptance",
-           session_in(x) + ": another one was not closed");
+    refute(rule_of("V12"), session_in(x) + ": another one was not closed");
   at.last_counter = counter;
-  at.sessions[name] = {.counter = counter};
+  at.sessions[name] = {.counter = counter, .begun = x.at, .confirmed = x.at};
   duties_.owe(data_of(session_in(x)), x.at + protocol::start_timeout,
               data_in_time, at_);
 }
@@ -238,8 +239,7 @@ void requester_rules::on_begun(const step& x) {
 void requester_rules::on_first_data(const step& x) {
   auto* known = find(x);
   if (!known || known->is_remote)
-    refute("V14 first data come once, of a session that has begun",
-           session_in(x));
+    refute(rule_of("V14"), session_in(x));
   else
     known->is_remote = true;
   duties_.settle(data_of(session_in(x)));
@@ -265,6 +265,28 @@ void requester_rules::on_digest(const step& x) {
   }
 }
 
+// A decision may come at an epoch of the policy, which is no step; but it ends
+// only what is in use. Results that came late for use are no step either: they
+// may have confirmed a session, but never make it end.
+bool requester_rules::may_close(const step& x, const session& known) const {
+  if (is_for(x, end_reason::no_data)
+      && ((!known.is_remote && x.at >= known.begun + protocol::start_timeout)
+          || x.at >= known.confirmed + protocol::confirmation_timeout))
+    return true;
+  if (is_for(x, end_reason::released))
+    return known.is_remote;
+  if (is_for(x, end_reason::handed_over))
+    return known.is_remote
+           && std::ranges::any_of(providers_, [&](const auto& other) {
+                const auto i =
+                    other.second.sessions.find(x.services.front().name);
+                return other.first != x.provider
+                       && i != other.second.sessions.end()
+                       && i->second.is_remote;
+              });
+  return is_given(x, known.may_end);
+}
+
 // A session that two digests do not name is over.
 void requester_rules::judge_unnamed(provider& from, const step& x) {
   for (auto& [name, s] : from.sessions) {
@@ -273,12 +295,12 @@ void requester_rules::judge_unnamed(provider& from, const step& x) {
     const messages::traced_service what{name, s.counter};
     if (std::ranges::count(x.services, what) > 0) {
       s.unnamed_since.reset();
+      s.confirmed = x.at;
     } else if (!s.unnamed_since) {
       s.unnamed_since = x.at;
     } else if (x.at - *s.unnamed_since >= protocol::digest_period / 2) {
       s.untold = true;
-      duties_.owe(end_of(session_in(x.provider, x.station, what)), x.at,
-                  closed_at_once, at_);
+      must_close(x, what, s, {name_of(end_reason::no_data)});
     }
   }
 }
@@ -286,7 +308,7 @@ void requester_rules::judge_unnamed(provider& from, const step& x) {
 void requester_rules::on_unknown_result(const step& x) {
   const auto from = providers_.find(x.provider);
   if (find(x))
-    refute("V15 results of a session are not refused", session_in(x));
+    refute(rule_of("V15"), session_in(x));
   if (from == providers_.end() || from->second.is_lost)
     return;
   auto& last = from->second.complained;
@@ -296,19 +318,36 @@ void requester_rules::on_unknown_result(const step& x) {
   must_end(x, x.services.front(), unknown_result);
 }
 
+void requester_rules::on_violation(const step& x) {
+  if (auto* known = find(x))
+    must_close(
+        x, x.services.front(), *known,
+        {name_of(end_reason::qos_latency), name_of(end_reason::qos_input_age),
+         name_of(end_reason::qos_gap), name_of(end_reason::implausible)});
+}
+
+void requester_rules::on_end_got(const step& x) {
+  auto* known = find(x);
+  if (!known)
+    return;
+  known->untold = true;
+  must_close(x, x.services.front(), *known, {x.detail});
+}
+
 void requester_rules::on_end_sent(const step& x) {
   if (find(x))
-    refute("V16 what runs is closed before its provider is told",
-           session_in(x));
+    refute(rule_of("V16"), session_in(x));
   duties_.settle(end_to(session_in(x)));
 }
 
 void requester_rules::on_closed(const step& x) {
   auto* known = find(x);
   if (!known) {
-    refute("V17 a session is closed once", session_in(x));
+    refute(rule_of("V17"), session_in(x));
     return;
   }
+  if (!may_close(x, *known))
+    refute(rule_of("V20"), fmt::format("{} as {}", session_in(x), x.detail));
   if (!known->untold)
     must_end(x, x.services.front(), provider_told);
   auto& from = providers_[x.provider];
@@ -329,18 +368,19 @@ void requester_rules::on_lost(const step& x) {
   duties_.settle(request_of(x.provider));
   for (auto& [name, s] : lost.sessions) {
     s.untold = true;
-    duties_.owe(end_of(session_in(x.provider, x.station, {name, s.counter})),
-                x.at, closed_at_once, at_);
+    must_close(x, {name, s.counter}, s, {name_of(end_reason::peer_lost)});
   }
 }
 
 void requester_rules::on_shut_down(const step& x) {
   duties_.drop_all();
   has_ended_ = true;
-  for (const auto& [id, from] : providers_)
-    for (const auto& [name, s] : from.sessions)
-      duties_.owe(end_of(session_in(id, x.station, {name, s.counter})), x.at,
-                  closed_at_once, at_);
+  auto of = x;
+  for (auto& [id, from] : providers_) {
+    of.provider = id;
+    for (auto& [name, s] : from.sessions)
+      must_close(of, {name, s.counter}, s, {name_of(end_reason::shutdown)});
+  }
 }
 
 void requester_rules::finish() {

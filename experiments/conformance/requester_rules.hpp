@@ -2,8 +2,10 @@
 #pragma once
 
 #include "experiments/conformance/duties.hpp"
+#include "experiments/conformance/names.hpp"
 #include "messages/protocol/trace.hpp"
 
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <set>
@@ -31,9 +33,12 @@ private:
   /// A session that has begun.
   struct session {
     std::uint32_t counter = 0;
+    time_point begun;
+    time_point confirmed;   // by its beginning, or a digest
     bool is_remote = false; // its results have come
     std::optional<time_point> unnamed_since{};
     bool untold = false; // its end needs not be told to the provider
+    reasons may_end;
   };
 
   struct provider {
@@ -62,16 +67,20 @@ private:
   void on_digest(const step& x);
   void judge_unnamed(provider& from, const step& x);
   void on_unknown_result(const step& x);
+  void on_violation(const step& x);
+  void on_end_got(const step& x);
   void on_end_sent(const step& x);
   void on_closed(const step& x);
   void on_lost(const step& x);
   void on_shut_down(const step& x);
 
   session* find(const step& x);
-  void must_close(const step& x, bool untold);
+  void must_close(const step& x, const messages::traced_service& what,
+                  session& known, std::initializer_list<std::string_view> why);
+  bool may_close(const step& x, const session& known) const;
   void must_end(const step& x, const messages::traced_service& what,
-                std::string_view rule);
-  void refute(std::string_view rule, std::string what);
+                rule owed_by);
+  void refute(rule broken, std::string what);
 
   duration slack_;
   breach_sink found_;

@@ -12,15 +12,12 @@ namespace sofof::experiments::conformance {
 
 namespace {
 
-constexpr std::string_view one_source = "S1 results come from one source";
-constexpr std::string_view home_at_once =
-    "S2 the own function goes on at once, after the last provider";
-constexpr std::string_view is_watched = "S3 a remote source is watched";
-constexpr std::string_view running = "S4 only what runs is used";
-constexpr std::string_view by_its_judge =
-    "S7 who ends as implausible had its latest result left out";
-constexpr std::string_view called_for_others =
-    "S8 only a provider that stands by is called";
+constexpr auto one_source = rule_of("S1");
+constexpr auto home_at_once = rule_of("S2");
+constexpr auto is_watched = rule_of("S3");
+constexpr auto running = rule_of("S4");
+constexpr auto by_its_judge = rule_of("S7");
+constexpr auto called_for_others = rule_of("S8");
 
 const std::string to_remote = "source remote";
 const std::string to_local = "source local";
@@ -33,8 +30,8 @@ constexpr auto for_a_gap = messages::name_of(messages::end_reason::qos_gap);
 
 } // namespace
 
-void selector_rules::refute(std::string_view rule, std::string what) {
-  found_({std::string{rule}, std::move(what), at_});
+void selector_rules::refute(rule broken, std::string what) {
+  found_({broken, std::move(what), at_});
 }
 
 std::ptrdiff_t selector_rules::in_use() const {
@@ -81,7 +78,7 @@ void selector_rules::add(const step& x, trace_place at) {
 
 void selector_rules::on_begun(const step& x) {
   if (!sessions_.try_emplace({x.provider, x.services.front().counter}).second)
-    refute("S5 a session begins once", session_in(x));
+    refute(rule_of("S5"), session_in(x));
 }
 
 void selector_rules::on_first_data(const step& x) {
@@ -115,9 +112,8 @@ void selector_rules::on_used(const step& x) {
   useless_.reset();
   auto& last = known->last_cycle;
   if (last && x.number <= *last)
-    refute(
-        "S6 results are used in order",
-        fmt::format("cycle {} after {} of {}", x.number, *last, session_in(x)));
+    refute(rule_of("S6"), fmt::format("cycle {} after {} of {}", x.number,
+                                      *last, session_in(x)));
   last = x.number;
 }
 

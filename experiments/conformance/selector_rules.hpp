@@ -48,7 +48,7 @@ private:
   void judge_reason(const session& ended, const step& x);
   session* find(const step& x);
   std::ptrdiff_t in_use() const;
-  void refute(std::string_view rule, std::string what);
+  void refute(rule broken, std::string what);
 
   duration slack_;
   breach_sink found_;

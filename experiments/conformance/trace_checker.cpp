@@ -50,7 +50,7 @@ void trace_checker::follow(parts<Rules>& all, const part_key& who,
     i = all.insert_or_assign(who, followed<Rules>{{slack_, sink()}, 0}).first;
   auto& [rules, last] = i->second;
   if (x.step != last + 1)
-    sink()({"M2 no step is missing",
+    sink()({rule_of("M2"),
             fmt::format("{} after {} of a {}", x.step, last,
                         messages::name_of(x.by)),
             at});

@@ -18,7 +18,8 @@ namespace sofof::experiments::conformance {
 
 namespace {
 
-/// On the wall's clock, beside what the process stood still.
+/// On the wall's clock, where a timer waits for its actor's turn. A process
+/// that stood still for longer is late by more.
 constexpr duration usual_slack = std::chrono::milliseconds{250};
 
 enum column : std::size_t {

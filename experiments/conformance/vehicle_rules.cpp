@@ -64,7 +64,7 @@ void vehicle_rules::finish() {
         other.service = {};
       const auto last = last_.find(other);
       if (last != last_.end() && last->second > x.by[by]->when + slack_)
-        found_({"M3 a selector does what its requester decides",
+        found_({rule_of("M3"),
                 fmt::format("{}: only the {}", name,
                             by == selector ? "selector" : "requester"),
                 x.by[by]->at});

@@ -16,8 +16,8 @@ void check_conformance(const finished_run& run, broken_promises& to) {
   const auto& breaches = steps.finish();
   for (std::size_t k = 0; k < std::min(breaches.size(), most); ++k)
     to.push_back(
-        {"conformance", fmt::format("line {}: {}: {}", breaches[k].at.line,
-                                    breaches[k].rule, breaches[k].what)});
+        {"conformance", fmt::format("line {}: {}", breaches[k].at.line,
+                                    conformance::in_words(breaches[k]))});
 }
 
 } // namespace sofof::experiments::torture

@@ -149,8 +149,7 @@ struct client_diary {
             fmt::format("the source changed {} times, events tell of {}",
                         e.changes, e.told));
     for (const auto& x : trace.finish())
-      broken.push_back(
-          fmt::format("step {}: {}: {}", x.at.line, x.rule, x.what));
+      broken.push_back(fmt::format("step {}: {}", x.at.line, in_words(x)));
   }
 
   entry& of(const messages::service_name& service) {
