@@ -51,11 +51,6 @@ struct requester_state {
     return service;
   }
 
-  void on_response(messages::service_response& response, const auto& managers) {
-    links->take_up(response, managers);
-    rules->on_response(response, now(self));
-  }
-
   void on_down(const caf::actor_addr& who) {
     if (vehicle.address() == who) {
       rules->shut_down(now(self));
@@ -88,7 +83,8 @@ requester(requester_impl::stateful_pointer<requester_state> self,
       },
       [self](messages::service_response& response,
              const std::vector<messages::provider_manager_actor>& managers) {
-        self->state.on_response(response, managers);
+        self->state.links->take_up(response, managers);
+        self->state.rules->on_response(response, now(self));
       },
       [self](const messages::session_digest& digest) {
         if (const auto from = self->state.links->sender())

@@ -19,7 +19,7 @@ struct letters final : record_sink {
   std::vector<station_id> tracks;
 
   void on_record(const record& x) override {
-    all += "edyoptscrnmwa"[x.index()];
+    all += "edyoptscrnmvwa"[x.index()];
     if (const auto* track = std::get_if<track_record>(&x))
       tracks.push_back(track->ego.own.station);
   }
@@ -41,9 +41,10 @@ TEST_CASE_FIXTURE(virtual_world, "every kind of record reaches the sink") {
   tell(recorder, record{drive_record{}});
   tell(recorder, record{trip_record{}});
   tell(recorder, record{claim_record{}});
+  tell(recorder, record{scene_record{}});
   tell(recorder, record{plan_switch_record{}});
   tell(recorder, record{air_record{}});
-  CHECK(sink->all == "edyoptscrnmwa");
+  CHECK(sink->all == "edyoptscrnmvwa");
 }
 
 TEST_CASE_FIXTURE(virtual_world, "records keep their order and content") {

@@ -89,7 +89,9 @@ inline decide(o, first, second, stands, k) { /* requester::decide */
 
 /* Whether an answer to the open request can still come. */
 #define ANSWERS1(b, i) ((acceptances & BIT((b) * MOST + i)) && answers[(b) * MOST + i] == open_request[b])
-#if MOST > 3
+#if MOST > 4
+#define ANSWERS(b) (ANSWERS1(b, 1) || ANSWERS1(b, 2) || ANSWERS1(b, 3) || ANSWERS1(b, 4) || ANSWERS1(b, 5))
+#elif MOST > 3
 #define ANSWERS(b) (ANSWERS1(b, 1) || ANSWERS1(b, 2) || ANSWERS1(b, 3) || ANSWERS1(b, 4))
 #elif MOST > 2
 #define ANSWERS(b) (ANSWERS1(b, 1) || ANSWERS1(b, 2) || ANSWERS1(b, 3))

@@ -78,10 +78,13 @@
 #define FALLBACK 0 /* 1: the own function runs after what is called a fallback */
 #endif
 #ifndef MOST
-#define MOST 3    /* sessions of a start */
+#define MOST 3    /* sessions of a start: each fault may end one, so FAULTS + 1 */
 #endif
 #ifndef REQUESTS
 #define REQUESTS 6
+#endif
+#ifndef ENOUGH
+#define ENOUGH 1  /* 0: a run may need more sessions or requests than these */
 #endif
 #ifndef MUTANT
 #define MUTANT 0  /* a rule that is left out: tests/acceptance/proof has those that
@@ -93,7 +96,7 @@
 #else
 #define BOOTS PROVIDERS
 #endif
-#define SESSIONS (3 * MOST)
+#define SESSIONS (BOOTS * MOST) /* 14 at most, as REQUESTS: bits of a short */
 #define NOBODY 9
 #define HOME 8
 #define BIT(x) (1 << (x))
@@ -107,7 +110,7 @@
 byte left;                  /* faults */
 byte boot[2], counter[2];   /* of a provider: its start, sessions of anybody since */
 bool alive[2];
-bool exhausted;             /* numbers have run out: such a run tells nothing at its end */
+bool exhausted;             /* numbers have run out: nobody is offered anything any more */
 
 /* All else there is once for each vehicle, v. */
 typedef vehicle {
@@ -267,7 +270,7 @@ active proctype judge() {
   byte b, v;
 end: do
   :: timeout ->
-     if :: !exhausted ->
+     assert(!exhausted || !ENOUGH);
      v = 0;
      do
      :: v < VEHICLES ->
@@ -291,12 +294,10 @@ end: do
         assert(!alive[1] || runs[1] == 0 || HAS(runs[1]));
 #endif
 #if POLICY != ANYTHING
-        assert(in_use != 0 || !(HELPS(0) || HELPS(1))); /* it offloads where it can */
+        assert(in_use != 0 || !(HELPS(0) || HELPS(1)) || exhausted); /* it offloads where it can */
 #endif
         v++
      :: else -> break
-     od
-     :: else
-     fi; break
+     od; break
   od
 }

@@ -1,6 +1,11 @@
-"""tests/mutants/run: what is broken, and that it is chosen at run time. Exits
-with 77 where there is no git or no compiler."""
+"""tests/mutants/run: what is broken, and that it is chosen at run time; and by
+what tests/mutants/protocol says that a mutant was noticed. Exits with 77 where
+there is no git or no compiler."""
 
+import contextlib
+import importlib.machinery
+import importlib.util
+import io
 import os
 import pathlib
 import shutil
@@ -15,6 +20,19 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import mutant_list  # noqa: E402
 import operators  # noqa: E402
 import switch  # noqa: E402
+
+
+def script(name):
+    """One that is a program, and so has no suffix."""
+    loader = importlib.machinery.SourceFileLoader(
+        name, str(switch.ROOT / "tests" / "mutants" / name))
+    module = importlib.util.module_from_spec(
+        importlib.util.spec_from_loader(name, loader))
+    loader.exec_module(module)
+    return module
+
+
+protocol = script("protocol")
 
 # All that is broken in reach() is seen by three calls.
 SOURCE = """// A way.
@@ -186,6 +204,40 @@ class Lists(unittest.TestCase):
             path = name.partition("#")[0]
             self.assertIn(name, [x.name for _, x in mutant_list.candidates(
                 path, self.files[path][0].decode())])
+
+
+class Protocol(unittest.TestCase):
+    def test_a_file_that_is_renamed_ends_the_draw(self):
+        with self.assertRaises(SystemExit) as end, \
+                contextlib.redirect_stderr(io.StringIO()) as told:
+            protocol.draw({}, 1, 10, {})
+        self.assertEqual(end.exception.code, 2)
+        self.assertIn("there is no offloading/requester.cpp", told.getvalue())
+
+    def test_each_kind_of_notice_has_its_name(self):
+        place = switch.Place(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, place.copy)
+        place.tests.mkdir(parents=True)
+        tests = place.tests / "test_properties"
+
+        def by(does):
+            tests.write_text(f"#!/bin/bash\n{does}\n")
+            tests.chmod(0o755)
+            return protocol.noticed(place, 1)
+
+        self.assertIsNone(by("exit 0"))
+        self.assertEqual(by("echo 'a.cpp:1: ERROR: step 7: P10: late'; exit 1"),
+                         ("rule", "P10: late"))
+        self.assertEqual(by("echo 'a.cpp:1: ERROR: CHECK( x )'; exit 1"),
+                         ("promise", "CHECK( x )"))
+        self.assertEqual(
+            by("echo \"x: Assertion \\`y' failed.\"; "
+               "echo 'FATAL ERROR: test case CRASHED: SIGABRT'; exit 1"),
+            ("assertion", "y"))
+        self.assertEqual(
+            by("echo 'FATAL ERROR: test case CRASHED: SIGSEGV'; exit 1")[0],
+            "crash")
+        self.assertEqual(by("kill -XCPU $$")[0], "no_end")
 
 
 if __name__ == "__main__":
