@@ -151,7 +151,7 @@ void requester::on_safe_response(const messages::service_name& service,
   pass(now);
   assert(longest >= duration{0});
   if (auto* known = find(service))
-    known->safe_response = longest;
+    known->scene = {now, longest};
 }
 
 // A list of bounded length, whatever an offer says.
@@ -361,7 +361,7 @@ requester::context_of(const service_state& service,
           .since = service.since,
           .needs = service.needs,
           .on_board = service.on_board,
-          .safe_response = service.safe_response,
+          .safe_response = service.safe_response(now),
           .future = setup_.future.get()};
 }
 

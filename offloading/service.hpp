@@ -60,8 +60,9 @@ world::cycle_cost offloaded_cost(const world::computer_options& computer,
 /// @returns the longest time from what a vehicle sees to the first result that
 /// depends on it while a provider computes the service, as long as limits are
 /// kept and until the own function has taken over when they are not:
-/// max_input_age + max_interarrival + the run time of the own function;
+/// max_input_age + max_interarrival + the longest run time of the own function;
 /// duration::max() if nothing limits the age of inputs.
+/// @param options  With run times as on the vehicle's computer.
 duration worst_response(const service_options& options);
 
 /// For which vehicle parts of a service are made.
@@ -71,7 +72,8 @@ struct vehicle_context {
   std::function<time_point()> clock = [] { return time_point{}; };
 };
 
-/// How late a vehicle may respond to its scene.
+/// The longest response time under which a vehicle's scene is safe, from what
+/// it sees to the first result that depends on it.
 struct safe_response {
   duration longest{};
   std::string_view because; ///< Who or what asks for no longer one; a literal.
@@ -107,8 +109,8 @@ public:
   virtual std::unique_ptr<result_judge> make_judge() const;
 
   /// @param latest  The vehicle's newest input, of no session.
-  /// @returns how late a result may be while the vehicle's scene is safe;
-  /// nullopt if the service does not know, by default.
+  /// @returns the longest response time under which the vehicle's scene is
+  /// safe; nullopt if the service does not know, by default.
   virtual std::optional<safe_response>
   look_at_scene(const messages::service_input& latest) const;
 

@@ -19,7 +19,8 @@ service_state::service_state(onboard_service what,
     : service{std::move(what)}, needs{service.options.period,
                                       service.options.limits.max_latency,
                                       service.options.limits.max_interarrival,
-                                      worst_response(service.options)},
+                                      worst_response(offloading::on(
+                                          computer, service.options))},
       on_board{world::on_board_cost(computer, service.options.compute)},
       offloaded{offloaded_cost(computer, service.options)}, since{now} {
   assert(service.own);
@@ -92,6 +93,14 @@ std::optional<provider_id> service_state::current() const {
   if (i == sessions.end())
     return std::nullopt;
   return i->provider;
+}
+
+std::optional<duration> service_state::safe_response(time_point now) const {
+  if (!scene)
+    return std::nullopt;
+  assert(scene->at <= now);
+  const auto is_old = now - scene->at > 2 * service.options.input_period;
+  return is_old ? duration{0} : scene->safe_response;
 }
 
 duration service_state::computing(const messages::service_offer& offer) const {

@@ -61,8 +61,12 @@ struct service_state {
   world::cycle_cost on_board{};  ///< Of a cycle in the vehicle.
   world::cycle_cost offloaded{}; ///< Time: of the way there alone.
   time_point since{};            ///< It has been where it is.
-  /// Under which the vehicle's scene is safe, as the service last said.
-  std::optional<duration> safe_response{};
+  /// What the service last found of the vehicle's scene.
+  struct scene_look {
+    time_point at;
+    duration safe_response{};
+  };
+  std::optional<scene_look> scene{};
   /// The oldest first; empty: it is local.
   std::vector<requester_session> sessions{};
   std::vector<provider_id> wanted{}; ///< Which providers shall run it.
@@ -92,6 +96,10 @@ struct service_state {
   /// @returns the provider that has run it for longest, of those that do not
   /// stand by; nullopt: it is local.
   std::optional<provider_id> current() const;
+
+  /// @returns under which response time the scene is safe; none, 0, if inputs
+  /// have stopped coming since the service last looked; nullopt: it never has.
+  std::optional<duration> safe_response(time_point now) const;
 
   /// @returns how long a provider computes a result of it.
   duration computing(const messages::service_offer& offer) const;

@@ -148,8 +148,8 @@ struct scene_record {
   service_name service; ///< That has looked.
   duration safe{};      ///< The longest response time that is safe.
   std::string because;  ///< Who or what asks for no longer one.
-  /// Since when what the result in use was made from was seen; nullopt: there
-  /// is no result yet.
+  /// Age of the input that the result in use was made from; nullopt: there is
+  /// no result yet.
   std::optional<duration> response{};
 };
 

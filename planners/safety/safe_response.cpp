@@ -4,19 +4,37 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace sofof::planners {
 
 namespace {
 
-/// cos 37°: who drives at a smaller angle to the way drives along it.
+/// cos 37°: whose heading is at a smaller angle to the way drives along it, or
+/// against it.
 constexpr auto along_cosine = 0.8;
 /// A body's place on the way is looked for so far round its place if the way
 /// were straight.
 constexpr auto foot_within_m = 20.0;
-/// Less is a body that stands, with the sensor's noise.
-constexpr auto stands_mps = 0.3;
+constexpr auto boundless = std::numeric_limits<double>::infinity();
+
+/// How far the own body reaches to either side of its rear axle.
+struct own_sides {
+  double left_m, right_m;
+};
+
+own_sides sides_of(const safety_scene& x, const world::vehicle_params& car) {
+  const auto sine = std::sin(x.turned_rad), cosine = std::cos(x.turned_rad);
+  const auto half_m = car.width_m / 2 * cosine;
+  // In a bend its straight body leaves the lane's middle to the outside.
+  const auto bend = x.way.path().curvature_1pm(x.s_m);
+  const auto out_m = car.front_m * car.front_m * std::abs(bend) / 2;
+  return {std::max(car.front_m * sine, -car.rear_m * sine) + half_m
+              + (bend < 0 ? out_m : 0),
+          std::max(-car.front_m * sine, car.rear_m * sine) + half_m
+              + (bend > 0 ? out_m : 0)};
+}
 
 /// A body as seen from the way.
 struct seen_body {
@@ -27,13 +45,16 @@ struct seen_body {
   double nearing_mps; // across, towards the own vehicle
   double own_nearing_mps; // and the own one towards it
   double speed_mps;
+  double room_m; // as it points, to the own lane; infinite if it points away
   bool is_along; // or against it
+  bool points_back;
 };
 
 class look {
 public:
   look(const safety_scene& x, const world::vehicle_params& car)
-      : x_{x}, car_{car}, here_{x.way.path().frame(x.s_m)} {}
+      : x_{x}, car_{car}, here_{x.way.path().frame(x.s_m)}, sides_{sides_of(
+                                                                x, car)} {}
 
   double along_mps() const { return x_.speed_mps * std::cos(x_.turned_rad); }
   double front_m() const { return x_.s_m + car_.front_m; }
@@ -49,36 +70,33 @@ public:
     const auto lane = path.frame(foot.s_m);
     const point axis{std::cos(o.heading_rad), std::sin(o.heading_rad)};
     const auto c = dot(lane.tangent, axis), s = cross(lane.tangent, axis);
-    const auto is_along = std::abs(c) > along_cosine;
     const auto half_length_m =
         (std::abs(c) * o.length_m + std::abs(s) * o.width_m) / 2;
-    // Who follows the lane is turned as it is.
     const auto half_width_m =
-        is_along ? o.width_m / 2
-                 : (std::abs(s) * o.length_m + std::abs(c) * o.width_m) / 2;
+        (std::abs(s) * o.length_m + std::abs(c) * o.width_m) / 2;
     const auto s_m = foot.s_m + foot.beyond_m;
     const auto left_m = foot.d_m - x_.d_m;
     const auto side = left_m > 0 ? 1.0 : -1.0;
+    const auto beside_m = std::abs(left_m) - half_width_m
+                          - (left_m > 0 ? sides_.left_m : sides_.right_m);
     return seen_body{s_m - half_length_m - front_m(),
                      x_.s_m - car_.rear_m - s_m - half_length_m,
-                     std::abs(left_m) - half_width_m - half_width_of_own(),
+                     beside_m,
                      o.speed_mps * c,
-                     is_along ? 0.0 : -side * o.speed_mps * s,
+                     -side * o.speed_mps * s,
                      side * x_.speed_mps * std::sin(x_.turned_rad),
                      o.speed_mps,
-                     is_along};
+                     side * s < 0 ? std::max(0.0, beside_m) / std::abs(s)
+                                  : boundless,
+                     std::abs(c) > along_cosine,
+                     c < 0};
   }
 
 private:
-  // Turned, it is wider.
-  double half_width_of_own() const {
-    const auto length_m = car_.front_m + car_.rear_m;
-    return (car_.width_m + std::abs(std::sin(x_.turned_rad)) * length_m) / 2;
-  }
-
   const safety_scene& x_;
   const world::vehicle_params& car_;
   world::path_frame here_;
+  own_sides sides_;
 };
 
 /// Who drives along the way, or against it.
@@ -87,9 +105,10 @@ safe_response beside_or_along(const seen_body& o, double own_mps,
   const auto across_s =
       meets_safely_s({o.beside_m, o.own_nearing_mps, o.nearing_mps},
                      assumed.lat, assumed.others_response_s);
-  if (o.along_mps < -stands_mps) {
-    const auto along_s = meets_safely_s({o.ahead_m, own_mps, -o.along_mps},
-                                        assumed.lon, assumed.others_response_s);
+  if (o.points_back) {
+    const auto along_s =
+        meets_safely_s({o.ahead_m, own_mps, std::max(0.0, -o.along_mps)},
+                       assumed.lon, assumed.others_response_s);
     return {std::max(across_s, along_s), "oncoming"};
   }
   const auto along_s = follows_safely_s(
@@ -97,22 +116,20 @@ safe_response beside_or_along(const seen_body& o, double own_mps,
   return {std::max(across_s, along_s), "follow"};
 }
 
-/// Who comes from the side.
-std::optional<safe_response> crossing(const seen_body& o, double own_mps,
-                                      bool has_priority,
-                                      const rss_assumptions& assumed) {
+/// Who stands across the lane, or comes from the side.
+safe_response crossing(const seen_body& o, double own_mps, bool has_priority,
+                       const rss_assumptions& assumed) {
   const auto stop_s = longest_response_s(own_mps, o.ahead_m, assumed.lon);
-  if (o.beside_m <= 0 && (o.speed_mps < stands_mps || !has_priority))
-    return safe_response{stop_s, "crossing"};
-  if (has_priority || o.nearing_mps <= stands_mps)
-    return std::nullopt;
-  // Along its own way to the own lane.
-  const auto room_m = o.beside_m * o.speed_mps / o.nearing_mps;
+  if (o.beside_m <= 0) // whoever has priority
+    return {stop_s, "crossing"};
   const auto stops_m =
       farthest_m(o.speed_mps, assumed.others_response_s, assumed.lon);
-  if (stops_m <= room_m)
-    return std::nullopt;
-  return safe_response{stop_s, "crossing"};
+  if (!has_priority && stops_m > o.room_m)
+    return {stop_s, "crossing"};
+  // It stays where it is.
+  const auto across_s =
+      longest_response_s(o.own_nearing_mps, o.beside_m, assumed.lat);
+  return {std::max(stop_s, across_s), "crossing"};
 }
 
 } // namespace
@@ -141,10 +158,8 @@ safe_response longest_safe_response(const safety_scene& x,
     const auto body = from.at(o, farthest);
     if (!body || body->behind_m > 0)
       continue;
-    if (body->is_along)
-      take(beside_or_along(*body, own_mps, assumed));
-    else if (const auto one = crossing(*body, own_mps, x.has_priority, assumed))
-      take(*one);
+    take(body->is_along ? beside_or_along(*body, own_mps, assumed)
+                        : crossing(*body, own_mps, x.has_priority, assumed));
   }
   assert(least.longest_s >= 0 && least.longest_s <= most_s);
   return least;

@@ -40,12 +40,14 @@ struct safe_response {
 /// * who comes from the side, and could not stop before the own lane, is safe
 ///   if the own vehicle has priority or can stop before it (definitions 16 to
 ///   18). A grant is priority given, as is a drive through a crossing that was
-///   agreed; a line before one that is not granted is a place to stop at;
-/// * who stands in the own lane, however turned, is a place to stop at;
+///   agreed and binds; a line before one that is not granted is a place to stop
+///   at;
+/// * who is across the own lane is a place to stop at, whoever has priority;
 /// * who is behind has to keep its distance itself.
 ///
 /// @param car     The own vehicle's body.
-/// @param most_s  Longer is of no interest.
+/// @param most_s  s, > 0; longer is of no interest.
+/// @returns the longest response time under which all of them are safe.
 safe_response longest_safe_response(const safety_scene& x,
                                     const rss_assumptions& assumed,
                                     const world::vehicle_params& car,

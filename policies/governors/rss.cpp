@@ -14,8 +14,8 @@ using namespace std::chrono_literals;
 
 constexpr std::string_view not_safe = "not safe under its response time";
 
-/// A service goes to a provider only with a margin, and comes home before the
-/// scene is not safe any more.
+/// A service goes to a provider, or from one to another, only with a margin,
+/// and comes home before the scene is not safe any more.
 class rss_governor final : public governor {
 public:
   local_decision govern(const local_context& context,
@@ -40,11 +40,17 @@ local_decision rss_governor::govern(const local_context& context,
     return wanted;
   const auto safe = *context.safe_response;
   const auto worst = context.needs.worst_response;
-  const auto margin = context.current ? leave_margin_ : enter_margin_;
-  if (worst < duration::max() - margin && safe >= worst + margin)
+  const auto leaves = [&](duration margin) {
+    return worst < duration::max() - margin && safe >= worst + margin;
+  };
+  if (leaves(enter_margin_))
     return wanted;
   const reason why{not_safe, to_seconds(safe), to_seconds(worst), "s"};
-  return context.current ? local_decision{come_home{}, why} : as_it_is(why);
+  if (context.current && !leaves(leave_margin_))
+    return {come_home{}, why};
+  const auto* there = std::get_if<run_at>(&wanted.what);
+  // While it moves nobody is asked whether it should come home.
+  return there && there->provider == context.current ? wanted : as_it_is(why);
 }
 
 void rss_governor::visit_options(option_visitor& s) {
@@ -53,6 +59,8 @@ void rss_governor::visit_options(option_visitor& s) {
   if (enter_margin_ < leave_margin_)
     s.refuse("enter_margin", "must not be less than `leave_margin`.");
   s.field("epoch_s", epoch_s_, {1e-3, 3600});
+  if (to_seconds(leave_margin_) < epoch_s_)
+    s.refuse("leave_margin", "must not be less than `epoch_s`.");
 }
 
 } // namespace

@@ -1,7 +1,6 @@
 // The longest response time under which a scene is safe, and for whose sake.
 #include "planners/safety/safe_response.hpp"
 
-#include "tests/support/dice.hpp"
 #include "tests/support/toy_streets.hpp"
 
 #include <doctest/doctest.h>
@@ -103,7 +102,29 @@ TEST_CASE_FIXTURE(on_a_street, "a car beside the vehicle counts when one of "
   turned_rad = 0.05; // to it
   CHECK(look().longest_s < beside_s - 0.3);
   turned_rad = -0.05;
-  CHECK(look().longest_s > beside_s - 0.3);
+  CHECK(look().longest_s > beside_s);
+  turned_rad = 0;
+  objects.front().heading_rad = -0.05; // the other one
+  CHECK(look().longest_s < beside_s - 0.3);
+  objects.front().heading_rad = -0.5;
+  CHECK(look().longest_s == 0);
+}
+
+TEST_CASE_FIXTURE(on_a_street, "on either side of the lane, and however far "
+                               "off its middle, the distance between the "
+                               "bodies counts") {
+  for (const auto side : {-1.0, 1.0}) {
+    CAPTURE(side);
+    objects.clear();
+    see({103, side * 3.0}, 0, 10);
+    d_m = 0;
+    turned_rad = 0;
+    const auto in_the_middle_s = look().longest_s;
+    d_m = side * 0.5;
+    CHECK(look().longest_s < in_the_middle_s - 0.3);
+    d_m = -side * 0.5;
+    CHECK(look().longest_s > in_the_middle_s + 0.3);
+  }
 }
 
 TEST_CASE_FIXTURE(on_a_street, "who comes from the side and could not stop has "
@@ -117,10 +138,37 @@ TEST_CASE_FIXTURE(on_a_street, "who comes from the side and could not stop has "
 }
 
 TEST_CASE_FIXTURE(on_a_street, "who comes from the side and can stop, or goes "
-                               "away, is no matter") {
+                               "away, is hardly a matter") {
   see({front_m() + 20, -40}, half_turn / 2, 8);
-  see({front_m() + 20, 6}, half_turn / 2, 8);
   CHECK(look().because == "free");
+  see({front_m() + 20, 6}, half_turn / 2, 8);
+  CHECK(look().longest_s > 4);
+}
+
+TEST_CASE_FIXTURE(on_a_street, "who stands close beside the lane and points to "
+                               "it may drive on, unless the vehicle has "
+                               "priority") {
+  see({front_m() + 20, -3.7}, half_turn / 2, 0); // 0.5 m beside
+  CHECK(look().longest_s
+        == doctest::Approx(longest_response_s(10, 20 - 0.9, assumed.lon)));
+  has_priority = true;
+  const auto waits_s = look().longest_s;
+  CHECK(waits_s > 1.5);
+  turned_rad = -0.1; // to it
+  CHECK(look().longest_s < waits_s - 0.2);
+}
+
+TEST_CASE_FIXTURE(on_a_street, "who turns off or pulls out across the lane is "
+                               "still in it, whoever has priority") {
+  for (const auto heading_rad : {0.7, half_turn / 2, 2.4})
+    for (const auto its_speed_mps : {0.4, 4.0})
+      for (const auto has_it : {false, true}) {
+        CAPTURE(heading_rad);
+        objects.clear();
+        see({front_m() + 6, 0}, heading_rad, its_speed_mps);
+        has_priority = has_it;
+        CHECK(look().longest_s == 0);
+      }
 }
 
 TEST_CASE_FIXTURE(on_a_street, "a car that stands across the lane is a place "
@@ -149,21 +197,17 @@ TEST_CASE_FIXTURE(on_a_street, "of several the one that asks for the quickest "
         == doctest::Approx(follows_safely_s({18 - 2.25, 10, 8}, assumed.lon)));
 }
 
-TEST_CASE_FIXTURE(on_a_street, "one more body never leaves more time, nor does "
-                               "a higher speed on an open road") {
-  test::dice random{2846};
-  for (int k = 0; k < 2000; ++k) {
-    objects.clear();
-    auto before_s = most_s;
-    for (int n = 0; n < 5; ++n) {
-      see({100 + random.between(-30, 120), random.between(-12, 12)},
-          random.between(-half_turn, half_turn), random.between(0, 15));
-      const auto now_s = look().longest_s;
-      CHECK(now_s <= before_s);
-      before_s = now_s;
-    }
-  }
-  objects.clear();
+TEST_CASE_FIXTURE(on_a_street, "a car that faces the vehicle may drive on, "
+                               "though it stands") {
+  see({front_m() + 20, 0}, 0, 0);
+  const auto behind_s = look().longest_s;
+  objects.front().heading_rad = half_turn;
+  CHECK(look().longest_s < behind_s);
+  CHECK(look().because == "oncoming");
+}
+
+TEST_CASE_FIXTURE(on_a_street, "faster is never safer on the way to a slower "
+                               "car") {
   see({front_m() + 40, 0}, 0, 8);
   auto before_s = most_s;
   for (speed_mps = 0; speed_mps < 20; speed_mps += 0.5) {

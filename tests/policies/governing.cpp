@@ -318,6 +318,23 @@ TEST_CASE_FIXTURE(roadside, "nobody is asked while the scene leaves less time "
   CHECK(comes_home(ask(*lodm)));
 }
 
+TEST_CASE_FIXTURE(roadside,
+                  "what runs at one provider goes to another one only "
+                  "with the margin of who leaves home") {
+  const auto lodm = make_lodm_with(
+      "nearest", {.texts = {{"govern.0.name", "rss"}, {"filter", "none"}},
+                  .lengths = {{"govern", 1}}});
+  seen.needs.worst_response = 600ms;
+  add(1, {200, 0});
+  add(2, {20, 0});
+  runs_at(1);
+  seen.safe_response = 900ms;
+  CHECK(goes_to(ask(*lodm)) == 2);
+  seen.safe_response = 899ms;
+  CHECK(!goes_to(ask(*lodm)));
+  CHECK(!comes_home(ask(*lodm)));
+}
+
 TEST_CASE_FIXTURE(roadside, "a service that knows nothing of the scene goes "
                             "where it likes; one that does, and whose inputs "
                             "may be of any age, stays at home") {

@@ -12,8 +12,11 @@ look_at(const messages::service_input& latest, const planning_world& world) {
   const auto way = request ? world.streets->find(request->way) : nullptr;
   if (!way)
     return std::nullopt;
+  // No service that may respond later than this is offloaded.
   constexpr auto most_s = 5.0;
   const auto& own = request->from;
+  const auto& agreed = request->crossing;
+  const auto binds = agreed && agreed->binds && !agreed->drive.empty();
   const planners::safety_scene scene{.way = *way,
                                      .s_m = own.s_m,
                                      .d_m = own.d_m,
@@ -21,8 +24,8 @@ look_at(const messages::service_input& latest, const planning_world& world) {
                                      .speed_mps = own.speed_mps,
                                      .objects = request->seen.objects,
                                      .stop_at_m = request->stop_at_m(world.car),
-                                     .has_priority = world.crossings_granted
-                                                     || request->crossing};
+                                     .has_priority =
+                                         world.crossings_granted || binds};
   const auto found =
       planners::longest_safe_response(scene, world.rss, world.car, most_s);
   return offloading::safe_response{from_seconds(found.longest_s),
