@@ -16,8 +16,8 @@ namespace {
 constexpr auto along_cosine = 0.8;
 /// A body's place on the way is looked for so far round its place if the way
 /// were straight.
-constexpr auto foot_within_m = 20.0;
-constexpr auto boundless = std::numeric_limits<double>::infinity();
+constexpr auto foot_near_m = 20.0;
+constexpr auto unlimited = std::numeric_limits<double>::infinity();
 
 /// How far the own body reaches to either side of its rear axle.
 struct own_sides {
@@ -50,9 +50,9 @@ struct seen_body {
   bool points_back;
 };
 
-class look {
+class scene_view {
 public:
-  look(const safety_scene& x, const world::vehicle_params& car)
+  scene_view(const safety_scene& x, const world::vehicle_params& car)
       : x_{x}, car_{car}, here_{x.way.path().frame(x.s_m)}, sides_{sides_of(
                                                                 x, car)} {}
 
@@ -66,7 +66,7 @@ public:
       return std::nullopt;
     const auto& path = x_.way.path();
     const auto guess_m = x_.s_m + dot(to, here_.tangent);
-    const auto foot = path.project(o.centre, guess_m, foot_within_m);
+    const auto foot = path.project(o.centre, guess_m, foot_near_m);
     const auto lane = path.frame(foot.s_m);
     const point axis{std::cos(o.heading_rad), std::sin(o.heading_rad)};
     const auto c = dot(lane.tangent, axis), s = cross(lane.tangent, axis);
@@ -87,7 +87,7 @@ public:
                      side * x_.speed_mps * std::sin(x_.turned_rad),
                      o.speed_mps,
                      side * s < 0 ? std::max(0.0, beside_m) / std::abs(s)
-                                  : boundless,
+                                  : unlimited,
                      std::abs(c) > along_cosine,
                      c < 0};
   }
@@ -144,7 +144,7 @@ safe_response longest_safe_response(const safety_scene& x,
     if (one.longest_s < least.longest_s)
       least = {std::max(0.0, one.longest_s), one.because};
   };
-  const look from{x, car};
+  const scene_view from{x, car};
   const auto own_mps = from.along_mps();
   if (x.stop_at_m)
     take({longest_response_s(own_mps, *x.stop_at_m - from.front_m(),
