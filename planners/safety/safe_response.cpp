@@ -11,8 +11,8 @@ namespace sofof::planners {
 
 namespace {
 
-/// cos 37°: whose heading is at a smaller angle to the way drives along it, or
-/// against it.
+/// cos 37°: a body at a smaller angle to the way drives along it, or against
+/// it.
 constexpr auto along_cosine = 0.8;
 /// A body's place on the way is looked for so far round its place if the way
 /// were straight.
@@ -45,9 +45,9 @@ struct seen_body {
   double nearing_mps; // across, towards the own vehicle
   double own_nearing_mps; // and the own one towards it
   double speed_mps;
-  double room_m; // as it points, to the own lane; infinite if it points away
-  bool is_along; // or against it
-  bool points_back;
+  double room_m;    // as it points, to the own lane; infinite if it points away
+  bool is_along;    // or against it
+  bool points_back; // against the way
 };
 
 class scene_view {
@@ -79,17 +79,18 @@ public:
     const auto side = left_m > 0 ? 1.0 : -1.0;
     const auto beside_m = std::abs(left_m) - half_width_m
                           - (left_m > 0 ? sides_.left_m : sides_.right_m);
-    return seen_body{s_m - half_length_m - front_m(),
-                     x_.s_m - car_.rear_m - s_m - half_length_m,
-                     beside_m,
-                     o.speed_mps * c,
-                     -side * o.speed_mps * s,
-                     side * x_.speed_mps * std::sin(x_.turned_rad),
-                     o.speed_mps,
-                     side * s < 0 ? std::max(0.0, beside_m) / std::abs(s)
-                                  : unlimited,
-                     std::abs(c) > along_cosine,
-                     c < 0};
+    return seen_body{
+        .ahead_m = s_m - half_length_m - front_m(),
+        .behind_m = x_.s_m - car_.rear_m - s_m - half_length_m,
+        .beside_m = beside_m,
+        .along_mps = o.speed_mps * c,
+        .nearing_mps = -side * o.speed_mps * s,
+        .own_nearing_mps = side * x_.speed_mps * std::sin(x_.turned_rad),
+        .speed_mps = o.speed_mps,
+        .room_m =
+            side * s < 0 ? std::max(0.0, beside_m) / std::abs(s) : unlimited,
+        .is_along = std::abs(c) > along_cosine,
+        .points_back = c < 0};
   }
 
 private:

@@ -49,8 +49,10 @@ local_decision rss_governor::govern(const local_context& context,
   if (context.current && !leaves(leave_margin_))
     return {come_home{}, why};
   const auto* there = std::get_if<run_at>(&wanted.what);
-  // While it moves nobody is asked whether it should come home.
-  return there && there->provider == context.current ? wanted : as_it_is(why);
+  // No decision is made while it moves, so there must be time for that.
+  const auto moves = there ? there->provider != context.current
+                           : !context.current && second_of(wanted);
+  return moves ? as_it_is(why) : wanted;
 }
 
 void rss_governor::visit_options(option_visitor& s) {

@@ -333,6 +333,8 @@ TEST_CASE_FIXTURE(roadside,
   seen.safe_response = 899ms;
   CHECK(!goes_to(ask(*lodm)));
   CHECK(!comes_home(ask(*lodm)));
+  runs_at(2); // the nearest already
+  CHECK(ask(*lodm).why != "not safe under its response time");
 }
 
 TEST_CASE_FIXTURE(roadside, "a service that knows nothing of the scene goes "
