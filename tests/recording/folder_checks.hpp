@@ -3,8 +3,12 @@
 
 #include "base/input_error.hpp"
 
+#include <doctest/doctest.h>
+
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -16,6 +20,12 @@ inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
     names.push_back(entry.path().filename());
   std::ranges::sort(names);
   return names;
+}
+
+inline std::string content_of(const std::filesystem::path& file) {
+  std::ifstream in{file, std::ios::binary};
+  REQUIRE(in.good());
+  return {std::istreambuf_iterator<char>{in}, {}};
 }
 
 /// What an input_error says; empty if there is none.

@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include <fstream>
-#include <iterator>
 
 namespace sofof::made_up {
 
@@ -23,12 +22,6 @@ using test::contains;
 using test::scratch;
 
 namespace {
-
-std::string content_of(const fs::path& path) {
-  std::ifstream in{path, std::ios::binary};
-  REQUIRE(in.good());
-  return {std::istreambuf_iterator<char>{in}, {}};
-}
 
 std::vector<std::string> lines(const fs::path& path) {
   std::ifstream in{path};
@@ -105,45 +98,6 @@ TEST_CASE("margins are written when wanted, the least ones in the summary") {
       summary_in(dir.path())["services"]["trajectory_planning"]["margin"];
   CHECK(margin["road_m"] == -0.0125);
   CHECK(margin["standing_s"] == 1.2);
-}
-
-TEST_CASE("how late a vehicle may respond is a line of scene.csv, which is "
-          "absent where nobody asks") {
-  const scratch dir;
-  {
-    results r{dir.path(), run()};
-    r.on_record(scene_record{at(5s), 101, planning, 720ms, "follow", 85ms});
-    r.on_record(scene_record{at(6s), 101, planning, 5s, "free", std::nullopt});
-    r.finish(at(100s), 2, false);
-  }
-  CHECK(content_of(dir / "scene.csv")
-        == "t_s,station,service,safe_ms,because,response_ms\n"
-           "5.000000000,101,trajectory_planning,720.000000,follow,85.000000\n"
-           "6.000000000,101,trajectory_planning,5000.000000,free,\n");
-  results later{dir.path(), run()};
-  later.finish(at(100s), 2, false);
-  CHECK_FALSE(fs::exists(dir / "scene.csv"));
-}
-
-TEST_CASE(
-    "claims of crossings are lines of claims.csv, which is absent without "
-    "any") {
-  const scratch dir;
-  {
-    results r{dir.path(), run()};
-    r.on_record(
-        claim_record{101, "in_e", at(5s), at(5200ms), at(9s), at(12s), true});
-    r.on_record(
-        claim_record{102, "in_n", at(6s), std::nullopt, at(10s), at(13s)});
-    r.finish(at(100s), 2, false);
-  }
-  CHECK(content_of(dir / "claims.csv")
-        == "station,lane,claimed_s,bound_s,enters_s,leaves_s,kept\n"
-           "101,in_e,5.000000000,5.200000000,9.000000000,12.000000000,1\n"
-           "102,in_n,6.000000000,,10.000000000,13.000000000,0\n");
-  results later{dir.path(), run()};
-  later.finish(at(100s), 2, false);
-  CHECK_FALSE(fs::exists(dir / "claims.csv"));
 }
 
 TEST_CASE("disturbed.csv has a line for each moment and vehicle that was "
