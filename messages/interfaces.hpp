@@ -48,6 +48,11 @@ using result_actor = caf::typed_actor<
     // A cycle is done.
     reacts_to<service_result>>;
 
+/// Wherever inputs of a service go.
+using input_actor = caf::typed_actor<
+    // There is new input.
+    reacts_to<service_input>>;
+
 /// Feeds one accepted service at the provider.
 using provider_manager_actor = result_actor::extend<
     // New input from the vehicle.
@@ -76,6 +81,14 @@ using client_actor = result_actor::extend<
     reacts_to<source_change>,
     // Inputs are wanted here.
     reacts_to<requester_manager_actor>>;
+
+/// Stands between two services of a chain: what one of them gives becomes input
+/// of the next.
+using chain_stage_actor = client_actor::extend<
+    // As input_actor takes it: for the first of them.
+    reacts_to<service_input>,
+    // Inputs of the next go here.
+    reacts_to<input_actor>>;
 
 /// Reports when results come late or stop coming.
 using watchdog_actor = caf::typed_actor<
@@ -198,6 +211,8 @@ using crossing_driver_actor = client_actor::extend<
 using vehicle_actor = client_actor::extend<
     // Who agrees with others for it, and wants to know how it drives.
     reacts_to<crossing_driver_actor>,
+    // At this place in the chain, the first being 0, stands this one.
+    reacts_to<std::uint32_t, chain_stage_actor>,
     // What was agreed, ...
     reacts_to<payload>,
     // ... and what to tell everybody about it.

@@ -128,6 +128,7 @@ struct provider_context {
   point position;         ///< m, east-north.
   /// As in a vehicle.
   std::function<time_point()> clock = [] { return time_point{}; };
+  provider_id id = 0; ///< Another one after each start.
 };
 
 /// A service at one provider. Where time is real, functions of several sessions

@@ -382,10 +382,12 @@ private:
     std::vector<actors::client_service> services;
     for (std::size_t k = 0; k < services_.size(); ++k)
       services.push_back(
-          {services_[k],
-           [type = s_.services[k], station = v.station, road,
-            recorder = world_.recorder](auto& sys, const auto& car) {
-             return type->spawn_client({sys, car, station, road, recorder})
+          {services_[k], [type = s_.services[k], station = v.station, road,
+                          recorder = world_.recorder,
+                          place = place_in_chain(s_, *s_.services[k])](
+                             auto& sys, const auto& car) {
+             return type
+                 ->spawn_client({sys, car, station, road, recorder, place})
                  .actor;
            }});
     return [&sys = sys_, station = v.station, way = v.way, services,

@@ -78,6 +78,25 @@ void check_obstacles(const scenario_definition& all, const toml_file& source) {
   }
 }
 
+/// Who is part of a chain needs the one before it, and one after it.
+void check_chain(const scenario_definition& all, const toml_file& source) {
+  for (std::size_t k = 0; k < all.services.size(); ++k) {
+    const auto& type = *all.services[k];
+    const auto needs = [&](std::string_view other, std::string_view why) {
+      if (!find_service(all, other))
+        source.refuse(fmt::format("service.{}.name", k),
+                      fmt::format("\"{}\" {} the service \"{}\"; add it, or "
+                                  "leave this one out.",
+                                  type.name(), why, other));
+    };
+    if (!type.plans() && !type.follows().empty())
+      needs(type.follows(), "gets its inputs from");
+    for (const auto name : actors::service_type_names())
+      if (actors::make_service_type(name)->follows() == type.name())
+        needs(name, "has its results used by");
+  }
+}
+
 void check_services(const scenario_definition& all, const toml_file& source) {
   std::vector<std::string_view> names;
   for (const auto& type : all.services) {
@@ -87,6 +106,7 @@ void check_services(const scenario_definition& all, const toml_file& source) {
           fmt::format("there are two services \"{}\".", type->name()));
     names.push_back(type->name());
   }
+  check_chain(all, source);
   // Nobody else tells a vehicle where to drive.
   if (!planning_service(all))
     source.refuse("service", "there is no service \"trajectory_planning\"; "

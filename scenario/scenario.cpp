@@ -229,6 +229,19 @@ const actors::service_type* planning_service(const scenario_definition& s) {
   return i == s.services.end() ? nullptr : i->get();
 }
 
+const actors::service_type* find_service(const scenario_definition& s,
+                                         std::string_view name) {
+  const auto i = std::ranges::find_if(
+      s.services, [&](const auto& type) { return type->name() == name; });
+  return i == s.services.end() ? nullptr : i->get();
+}
+
+std::uint32_t place_in_chain(const scenario_definition& s,
+                             const actors::service_type& type) {
+  const auto* before = find_service(s, type.follows());
+  return before ? place_in_chain(s, *before) + 1 : 0;
+}
+
 std::string to_toml(scenario_definition what) {
   return print_options([&](option_visitor& s) { what.visit_options(s); });
 }

@@ -106,6 +106,15 @@ struct scenario_definition {
 /// @returns the service that plans how vehicles drive; null if there is none.
 const actors::service_type* planning_service(const scenario_definition& s);
 
+/// @returns the service of that name; null if there is none.
+const actors::service_type* find_service(const scenario_definition& s,
+                                         std::string_view name);
+
+/// @returns the place of a service in its chain, the first being 0; 0 for one
+/// that is in none.
+std::uint32_t place_in_chain(const scenario_definition& s,
+                             const actors::service_type& type);
+
 /// @returns the effective configuration, defaults included, as a scenario
 /// file; file names in it stay as they were given.
 std::string to_toml(scenario_definition what);

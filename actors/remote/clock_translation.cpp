@@ -12,12 +12,18 @@ namespace {
 /// Of a result's time: a peer may claim anything.
 constexpr duration longest_part = std::chrono::hours{1};
 
-/// @param what  Of an input or a result: an ITS message or anything else.
+/// @param what  Of an input or a result: ITS messages or anything else.
 messages::payload on_our_clock(messages::payload what, const heartbeat& peer,
                                const network::clock_offset& clock) {
   if (const auto message = what.as<messages::its_pdu>())
     return messages::payload::of(
         messages::its_pdu{message->octets, peer.time_of_day(clock)});
+  if (const auto several = what.as<messages::its_pdus>()) {
+    auto all = *several;
+    for (auto& one : all.all)
+      one.ahead = peer.time_of_day(clock);
+    return messages::payload::of(std::move(all));
+  }
   return what;
 }
 

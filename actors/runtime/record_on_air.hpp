@@ -14,12 +14,15 @@ void record_on_air(Self* self, const messages::recorder_actor& recorder,
   send_record(self, recorder, messages::air_record{now(self), message});
 }
 
-/// The same, if it is one.
+/// The same, if it is one or several.
 template <class Self>
 void record_on_air(Self* self, const messages::recorder_actor& recorder,
                    const messages::payload& what) {
   if (const auto message = what.as<messages::its_pdu>())
     record_on_air(self, recorder, *message);
+  else if (const auto several = what.as<messages::its_pdus>())
+    for (const auto& one : several->all)
+      record_on_air(self, recorder, one);
 }
 
 } // namespace sofof::actors

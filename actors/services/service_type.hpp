@@ -2,6 +2,7 @@
 // one new file in this folder.
 #pragma once
 
+#include "actors/services/planning/known_others.hpp"
 #include "actors/simulation/plan_client.hpp"
 #include "base/options/option_visitor.hpp"
 #include "messages/v2x/georeference.hpp"
@@ -26,6 +27,9 @@ struct service_world {
   bool crossings_granted = true;
   world::sensor_params eyes{};            ///< Of each vehicle.
   std::vector<world::viewpoint> roadside; ///< Sensors of the provider there.
+  /// What the services of a chain share at providers.
+  std::shared_ptr<functions_beside> beside =
+      std::make_shared<functions_beside>();
 };
 
 // actors/simulation/service_client.hpp has both.
@@ -41,6 +45,10 @@ public:
 
   /// Lists the options, first the common ones.
   virtual void visit_options(option_visitor& s) { options.visit_options(s); }
+
+  /// @returns the service of whose results it is made inputs, if both are
+  /// there: they are a chain then; empty: of none.
+  virtual std::string_view follows() const { return {}; }
 
   /// @returns the service with these options in this world.
   virtual offloading::service in(const service_world& world) const = 0;

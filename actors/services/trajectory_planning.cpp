@@ -36,6 +36,8 @@ public:
 
   std::string_view name() const override { return "trajectory_planning"; }
 
+  std::string_view follows() const override { return "environment_model"; }
+
   void visit_options(option_visitor& s) override {
     service_type::visit_options(s);
     s.table("planner",
@@ -51,7 +53,7 @@ public:
         !world.crossings_granted);
     auto shared = std::make_shared<const planning_world>(
         world.streets, world.where, world.car, world.crossings_granted,
-        world.eyes, planner_, std::move(roads), rss_);
+        world.eyes, planner_, std::move(roads), rss_, world.beside);
     return {.name = name(),
             .options = options,
             .in_vehicle =

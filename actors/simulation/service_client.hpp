@@ -7,6 +7,8 @@
 
 #include <caf/actor_system.hpp>
 
+#include <cstdint>
+
 namespace sofof::actors {
 
 /// Where a client is spawned.
@@ -16,6 +18,7 @@ struct client_place {
   station_id station = 0;
   planners::route_profile_ptr road{}; ///< Of its route; null: it has none.
   messages::recorder_actor recorder{};
+  std::uint32_t place = 0; ///< Of the service in its chain, the first being 0.
 };
 
 /// What a service's `spawn_client` has spawned.

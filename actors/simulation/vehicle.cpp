@@ -25,9 +25,8 @@ struct vehicle_actor_state {
   std::optional<vehicle_links> links;
   std::optional<driven_car> car;
   messages::onboard_requester_actor requester;
-  messages::requester_manager_actor planning; // gets the inputs
-  messages::payload agreed;                   // at a crossing
-  world::perception newest;                   // of what it perceives
+  messages::payload agreed; // at a crossing
+  world::perception newest; // of what it perceives
   bool remote = false;
   bool has_arrived = false;
   std::optional<caf::error> leaving; // why
@@ -130,13 +129,13 @@ struct vehicle_actor_state {
   void on_perception(world::perception& others) {
     newest = std::move(others); // a report of this moment tells of it
     catch_up();
-    if (!planning || !setup.plans || has_arrived)
+    if (!links->is_planned_for() || !setup.plans || has_arrived)
       return;
     const auto from = car->plan_from(now(self));
-    auto question =
-        setup.plans->ask(*setup.car.way, from, newest, car->ego().own, agreed);
-    self->send(planning,
-               messages::service_input{{}, from.at, std::move(question)});
+    links->ask({{},
+                from.at,
+                setup.plans->ask(*setup.car.way, from, newest, car->ego().own,
+                                 agreed)});
   }
 
   void on_result(const messages::service_result& result) {
@@ -170,15 +169,15 @@ vehicle(vehicle_impl::stateful_pointer<vehicle_actor_state> self,
       [self](const caf::down_msg&) { self->state.on_requester_down(); });
   self->set_exit_handler(
       [self](const caf::exit_msg& exit) { self->state.on_exit(exit.reason); });
+  auto* const links = &*self->state.links;
   return {
       [self](const messages::service_result& x) { self->state.on_result(x); },
       [self](const messages::source_change& x) { self->state.on_source(x); },
-      [self](const messages::requester_manager_actor& manager) {
-        self->state.planning = manager;
+      [links](const messages::requester_manager_actor& x) { links->ask(x); },
+      [links](std::uint32_t place, const messages::chain_stage_actor& stage) {
+        links->add_stage(place, stage);
       },
-      [self](const messages::crossing_driver_actor& agent) {
-        self->state.links->tell(agent);
-      },
+      [links](const messages::crossing_driver_actor& x) { links->tell(x); },
       [self](const messages::payload& agreed) { self->state.agreed = agreed; },
       [self](const messages::its_pdu& word) {
         auto& x = self->state;

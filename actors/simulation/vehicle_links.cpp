@@ -66,6 +66,21 @@ void vehicle_links::say(const messages::its_pdu& word, point from,
     self_->send(setup_.air, setup_.car.station.value(), from, word);
 }
 
+// Each stage feeds the next, and the last one the planner.
+void vehicle_links::join_stages() {
+  if (!planner_)
+    return;
+  first_ = planner_;
+  for (auto i = stages_.rbegin(); i != stages_.rend(); ++i) {
+    self_->send(i->second, first_);
+    first_ = i->second;
+  }
+}
+
+void vehicle_links::ask(messages::service_input input) {
+  self_->send(first_, std::move(input));
+}
+
 void vehicle_links::log_event(messages::event_type what) {
   send_record(self_, setup_.recorder,
               messages::event_record{.at = now(self_),

@@ -4,6 +4,8 @@
 #include "actors/simulation/v2x_broadcast.hpp"
 #include "actors/simulation/vehicle.hpp"
 
+#include <cstdint>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -43,6 +45,20 @@ public:
     agent_ = std::move(agent);
   }
 
+  /// Who plans for the vehicle.
+  void ask(messages::requester_manager_actor planner) {
+    planner_ = std::move(planner);
+    join_stages();
+  }
+  /// At this place of the chain before that there is another service.
+  void add_stage(std::uint32_t place, messages::chain_stage_actor stage) {
+    stages_[place] = std::move(stage);
+    join_stages();
+  }
+  bool is_planned_for() const { return first_ != nullptr; }
+  /// The first of the chain has new input.
+  void ask(messages::service_input input);
+
   void log_event(messages::event_type what);
   void record(const driven_car& car, bool remote);
   void record(const std::optional<messages::plan_switch_record>& jump);
@@ -51,6 +67,7 @@ public:
   void record_trip(driven_car& car);
 
 private:
+  void join_stages();
   void send(const std::optional<messages::its_pdu>& message, point from,
             const messages::onboard_requester_actor& requester);
 
@@ -58,6 +75,9 @@ private:
   const vehicle_setup& setup_;
   std::optional<v2x_broadcast> due_; // none if it is not connected
   messages::crossing_driver_actor agent_;
+  messages::requester_manager_actor planner_;
+  std::map<std::uint32_t, messages::chain_stage_actor> stages_;
+  messages::input_actor first_; // of these
 };
 
 } // namespace sofof::actors

@@ -41,8 +41,20 @@ void visit_fields(auto& v, its_pdu& x) {
   v("octets", x.octets);
 }
 
+/// ITS messages that belong together.
+struct its_pdus {
+  std::vector<its_pdu> all;
+};
+
+void visit_fields(auto& v, its_pdus& x) {
+  v("all", x.all);
+}
+
 } // namespace sofof::messages
 
 template <>
 inline constexpr std::string_view
     sofof::messages::payload_name<sofof::messages::its_pdu> = "its_pdu";
+template <>
+inline constexpr std::string_view
+    sofof::messages::payload_name<sofof::messages::its_pdus> = "its_pdus";

@@ -25,6 +25,9 @@ struct perceived_scene {
   std::size_t perceived = 0; ///< All objects, those that it does not tell too.
   /// Its sensor, in the middle of its body, if it is to be told of.
   const world::sensor_params* sensor = nullptr;
+  /// The sender is a roadside unit, at `own.position`; it heads nowhere. Only
+  /// in release 2.
+  bool at_roadside = false;
 };
 
 /// In the sender's frame: from the middle of its front, x where it is heading,

@@ -146,7 +146,8 @@ ts::cpm make_cpm_ts103324(const perceived_scene& scene,
                           const world::vehicle_params& car,
                           const georeference& where) {
   const auto& own = scene.own;
-  const auto place = where.frame.to_wgs84(front_of(own, car));
+  const auto place = where.frame.to_wgs84(
+      scene.at_roadside ? own.position : front_of(own, car));
   ts::cpm message;
   message.header.station = own.station.value();
   const auto generated = where.clock.timestamp(own.at);
@@ -156,10 +157,12 @@ ts::cpm make_cpm_ts103324(const perceived_scene& scene,
   const auto add = [&body]<class Container>(Container x) {
     body.containers.emplace_back().value = std::move(x);
   };
-  ts::originating_vehicle sender;
-  sender.orientation.value = static_cast<std::uint16_t>(
-      where.frame.to_etsi_heading(own.heading_rad, own.position));
-  add(std::move(sender));
+  if (!scene.at_roadside) {
+    ts::originating_vehicle sender;
+    sender.orientation.value = static_cast<std::uint16_t>(
+        where.frame.to_etsi_heading(own.heading_rad, own.position));
+    add(std::move(sender));
+  }
   if (scene.sensor) {
     ts::sensor_information_container sensors;
     sensors.push_back(describe(*scene.sensor));

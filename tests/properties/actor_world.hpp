@@ -60,6 +60,7 @@ drive(moving_client::stateful_pointer<moving_client_state> self,
         self->state.managers.push_back(manager);
       },
       [](const messages::crossing_driver_actor&) {},
+      [](std::uint32_t, const messages::chain_stage_actor&) {},
       [](const messages::payload&) {},
       [](const messages::its_pdu&) {},
       [](const world::perception&) {},

@@ -2,6 +2,7 @@
 #include "actors/services/planning/drive_words.hpp"
 
 #include "base/protocol.hpp"
+#include "world/roads/route_finder.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -62,6 +63,19 @@ world::trajectory told_rest(const world::trajectory& drive, time_point now) {
 bool is_claim(const messages::decoded_mcm& word) {
   return word.plan && word.answer
          && word.answer->second == messages::etsi::maneuver_response::accept;
+}
+
+std::string_view objection_to(std::span<const point> route,
+                              const world::streets& known) {
+  constexpr auto told = static_cast<std::size_t>(protocol::authority_m
+                                                 / protocol::route_spacing_m);
+  if (known.map.lanes().empty())
+    return "no map present";
+  // As far as inputs tell the way.
+  if (!world::find_route(known.routes,
+                         route.first(std::min(route.size(), told))))
+    return "route is not on the map";
+  return {};
 }
 
 } // namespace sofof::actors

@@ -4,10 +4,13 @@
 #include "messages/v2x/mcm/mcm_content.hpp"
 #include "planners/scene/told_drive.hpp"
 #include "world/roads/route.hpp"
+#include "world/roads/streets.hpp"
 #include "world/vehicle/trajectory.hpp"
 #include "world/vehicle/vehicle.hpp"
 
 #include <optional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 namespace sofof::actors {
@@ -31,5 +34,11 @@ world::trajectory told_rest(const world::trajectory& drive, time_point now);
 
 /// @returns whether it claims that drive.
 bool is_claim(const messages::decoded_mcm& word);
+
+/// @param route  The way ahead of a vehicle that asks.
+/// @returns why nobody can plan there who knows these streets, a short literal;
+/// empty: somebody can.
+std::string_view objection_to(std::span<const point> route,
+                              const world::streets& known);
 
 } // namespace sofof::actors

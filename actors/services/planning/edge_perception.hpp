@@ -3,6 +3,7 @@
 #pragma once
 
 #include "actors/offloading/broadcast_listener.hpp"
+#include "actors/services/planning/known_others.hpp"
 #include "messages/v2x/generation_rules.hpp"
 #include "planners/plausibility/plausibility.hpp"
 #include "planners/scene/object_tracker.hpp"
@@ -24,7 +25,7 @@ world::perceived_object body_of(const messages::cam& c);
 /// What is told of later than now is not believed, nor are bodies that
 /// `plausibility` doubts. What vehicles say of their drives is taken as it is:
 /// it closes places, and moves nobody.
-class edge_perception final : public broadcast_listener {
+class edge_perception final : public broadcast_listener, public others_source {
 public:
   /// @param houses  Of the map; they hide what is behind them.
   /// @param noise   Of those who tell what they see.
@@ -50,11 +51,9 @@ public:
   ///          second, and what nothing is known of yet has no sides to pass by.
   bool knows_surroundings_of(station_id who) const;
 
-  /// Copies what others than `station` say of their drives.
-  void drives(std::vector<planners::told_drive>& out, station_id station);
-
-  /// Copies what is known now and believed by who plans for `station`.
-  void tracks(std::vector<planners::track>& out, station_id station);
+  void drives(std::vector<planners::told_drive>& out,
+              station_id station) override;
+  void tracks(std::vector<planners::track>& out, station_id station) override;
 
 private:
   void forget_silent(time_point now);

@@ -2,6 +2,7 @@
 #include "actors/services/planning/mec_planning.hpp"
 
 #include "actors/services/planning/agreed_word.hpp"
+#include "actors/services/planning/others_around.hpp"
 #include "actors/services/planning/plan_cycle.hpp"
 #include "actors/services/planning/plan_request.hpp"
 #include "base/protocol.hpp"
@@ -24,11 +25,14 @@ public:
   mec_planning(planning_world_ptr world, offloading::provider_context provider,
                station_id vehicle, std::shared_ptr<edge_perception> perceived)
       : world_{std::move(world)}, provider_{std::move(provider)},
-        station_{vehicle}, perceived_{std::move(perceived)} {}
+        station_{vehicle}, perceived_{perceived}, others_{
+                                                      world_, provider_.id,
+                                                      vehicle,
+                                                      std::move(perceived)} {}
 
   offloading::service_output
   run(time_point now, const messages::service_input& input) override {
-    if (auto message = input.what.as<messages::its_pdu>();
+    if (auto message = others_.on_input(input.what, now);
         message && message != heard_) {
       on_report(*message, now);
       heard_ = std::move(message);
@@ -42,14 +46,11 @@ public:
     if (!from)
       return {};
     from->others.stop_at_m = stop_at_m_;
-    perceived_->tracks(tracks_, station_);
-    perceived_->drives(drives_, station_);
     from->others.agreed = agreed_.drive(*from, cycle_->way(), now);
     const auto report =
-        cycle_->run(now, planners::made_possible(*from), tracks_, drives_);
+        others_.plan(now, planners::made_possible(*from), *cycle_);
     ego_->follow(cycle_->plan());
-    if (!has_begun_
-        && (report.emergency || !perceived_->knows_surroundings_of(station_)))
+    if (!has_begun_ && (report.emergency || !others_.are_known()))
       return {}; // until it would drive no worse than the vehicle itself
     has_begun_ = true;
     return said(report, input.session.counter);
@@ -169,6 +170,7 @@ private:
   offloading::provider_context provider_;
   station_id station_; // of the vehicle
   std::shared_ptr<edge_perception> perceived_;
+  others_around others_;
   std::shared_ptr<const messages::its_pdu> heard_; // last, ...
   time_point heard_at_;                            // and when it was said
   std::optional<plan_cycle> cycle_;
@@ -180,8 +182,6 @@ private:
   bool has_begun_ = false; // to suggest plans
   // Room that is used again.
   messages::etsi::mcm word_, said_;
-  std::vector<planners::track> tracks_;
-  std::vector<planners::told_drive> drives_;
   std::vector<messages::maneuver_waypoint> waypoints_;
 };
 

@@ -38,27 +38,42 @@ public:
       from.accel_mps2 =
           std::clamp(from.accel_mps2, -style().comfort_decel_mps2,
                      style().max_accel_mps2); // none of its own so far
-    take_in(now, *request);
-    from.others.stop_at_m = request->stop_at_m(world_->car);
-    std::span<const planners::told_drive> told;
-    if (const auto* agreed_on = request->crossing.get()) {
-      from.others.agreed =
-          planners::agreed(*agreed_on, now, request->agreeing(world_->car));
-      told = agreed_on->told;
-    }
-    const auto report =
-        cycle_->run(now, std::move(from), model_.tracks(), told);
+    const auto report = plan(now, *request, std::move(from));
     return {messages::payload::of(cycle_->plan()),
             messages::payload::of(report)};
   }
 
   void observe(time_point now, const messages::service_input& input) override {
     drives_by_another_ = true;
-    if (const auto request = input.what.as<plan_request>())
+    const auto request = input.what.as<plan_request>();
+    if (request && !request->found.scene)
       take_in(now, *request);
   }
 
 private:
+  // From what is known of the others: by this function itself, unless that is
+  // the business of services before it.
+  planners::plan_report plan(time_point now, const plan_request& request,
+                             planners::planning_input from) {
+    const auto* scene = request.found.scene.get();
+    if (scene && !scene->made_of)
+      from.others = scene->scene;
+    from.others.stop_at_m = request.stop_at_m(world_->car);
+    std::span<const planners::told_drive> told;
+    if (const auto* agreed_on = request.crossing.get()) {
+      from.others.agreed =
+          planners::agreed(*agreed_on, now, request.agreeing(world_->car));
+      told = agreed_on->told;
+    }
+    if (scene && !scene->made_of)
+      return cycle_->run_in_scene(now, from);
+    if (!scene)
+      take_in(now, request);
+    return cycle_->run(now, std::move(from),
+                       scene ? std::span{scene->made_of->all} : model_.tracks(),
+                       told);
+  }
+
   const planners::comfort_limits& style() const {
     return world_->options.style;
   }

@@ -44,6 +44,10 @@ public:
                             std::span<const planners::track> others,
                             std::span<const planners::told_drive> told = {});
 
+  /// The same in a scene that somebody else has described: `from.others`.
+  planners::plan_report run_in_scene(time_point now,
+                                     const planners::planning_input& from);
+
 private:
   station_id station_;
   std::function<time_point()> clock_;

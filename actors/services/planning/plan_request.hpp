@@ -1,6 +1,7 @@
 // What a vehicle and the planner in it say to each other.
 #pragma once
 
+#include "actors/services/planning/known_others.hpp"
 #include "messages/protocol/payload.hpp"
 #include "messages/protocol/service.hpp"
 #include "planners/crossing/agreed.hpp"
@@ -24,6 +25,7 @@ struct plan_request {
   messages::cam own;             ///< Its motion as its CAMs tell it.
   /// What was agreed at a crossing; stays here. Null: nothing.
   std::shared_ptr<const planners::crossing_view> crossing;
+  chain_findings found; ///< Before it, in a chain.
 
   planners::agreeing_car agreeing(const world::vehicle_params& car) const {
     return {from.s_m, from.speed_mps, car.front_m};

@@ -15,8 +15,13 @@ public:
                         const planners::planning_input& from,
                         const world::perception& seen, const messages::cam& own,
                         const messages::payload& crossing) const override {
-    return messages::payload::of(plan_request{
-        way.name(), from, seen, own, crossing.as<planners::crossing_view>()});
+    return messages::payload::of(
+        plan_request{way.name(),
+                     from,
+                     seen,
+                     own,
+                     crossing.as<planners::crossing_view>(),
+                     {}});
   }
 
   std::optional<received_plan>

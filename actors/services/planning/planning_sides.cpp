@@ -4,17 +4,16 @@
 #include "actors/services/planning/drive_words.hpp"
 #include "actors/services/planning/mec_planning.hpp"
 #include "actors/services/planning/onboard_planning.hpp"
+#include "actors/services/planning/perceived_at.hpp"
 #include "actors/services/planning/plan_request.hpp"
 #include "actors/services/planning/scene_look.hpp"
+#include "actors/services/planning/scene_words.hpp"
 #include "actors/services/planning/session_maneuver.hpp"
 #include "actors/services/planning/suggestion_judge.hpp"
-#include "base/protocol.hpp"
 #include "messages/v2x/encoded.hpp"
 #include "messages/v2x/mcm/mcm_content.hpp"
 #include "policies/algorithms/forecast/continuity.hpp"
-#include "world/roads/route_finder.hpp"
 
-#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -72,8 +71,13 @@ public:
         messages::make_word(word, world_->car, *world_->where));
     if (message.octets.empty())
       return {};
-    input.what = messages::payload::of(std::move(message));
     input.in_use = {};
+    input.what =
+        request->found.scene
+            ? with_scene(std::move(message), *way, *request, input.session)
+            : messages::payload::of(std::move(message));
+    if (input.what.empty())
+      return {};
     return input;
   }
 
@@ -112,6 +116,25 @@ public:
   }
 
 private:
+  /// In a chain: the scene goes along, unless it was found at the same
+  /// provider.
+  messages::payload with_scene(messages::its_pdu word, const world::route& way,
+                               const plan_request& request,
+                               const messages::session_id& session) const {
+    messages::its_pdus words{{std::move(word)}};
+    if (request.found.scene_by != session.provider) {
+      const auto& scene = request.found.scene->scene;
+      const auto s_m = request.from.s_m;
+      words.all.push_back(make_scene_words(
+          scene,
+          {vehicle_.station, s_m, way.path().at(s_m).at, scene.at, scene.at},
+          *world_->where));
+      if (words.all.back().octets.empty())
+        return {};
+    }
+    return messages::payload::of(std::move(words));
+  }
+
   planning_world_ptr world_;
   offloading::vehicle_context vehicle_;
 };
@@ -121,9 +144,7 @@ public:
   planning_at_provider(planning_world_ptr world,
                        offloading::provider_context provider)
       : world_{std::move(world)}, provider_{std::move(provider)},
-        perceived_{std::make_shared<edge_perception>(
-            provider_.clock, world_->streets->map.buildings(),
-            planners::noise_of(world_->eyes), world_->where)} {}
+        perceived_{perceived_at(*world_, provider_)} {}
 
   std::shared_ptr<offloading::service_function>
   make_function(station_id vehicle) override {
@@ -140,15 +161,7 @@ public:
   }
 
   std::string_view objection(std::span<const point> route) const override {
-    constexpr auto told = static_cast<std::size_t>(protocol::authority_m
-                                                   / protocol::route_spacing_m);
-    if (world_->streets->map.lanes().empty())
-      return "no map present";
-    // As far as inputs tell the way.
-    if (!world::find_route(world_->streets->routes,
-                           route.first(std::min(route.size(), told))))
-      return "route is not on the map";
-    return {};
+    return objection_to(route, *world_->streets);
   }
 
   broadcast_listener* listener() override { return perceived_.get(); }

@@ -1,10 +1,12 @@
 // What planners of one run share, in vehicles and at providers.
 #pragma once
 
+#include "actors/services/planning/known_others.hpp"
 #include "actors/services/planning/known_roads.hpp"
 #include "actors/services/planning/planner_options.hpp"
 #include "messages/v2x/georeference.hpp"
 #include "planners/safety/rss.hpp"
+#include "planners/scene/scene_interpreter.hpp"
 #include "world/roads/streets.hpp"
 #include "world/sensing/sensors.hpp"
 #include "world/vehicle/vehicle.hpp"
@@ -23,6 +25,18 @@ struct planning_world {
   planner_options options;
   std::shared_ptr<known_roads> roads;
   planners::rss_assumptions rss{}; ///< Of the vehicle and of others.
+  /// In a chain, the functions that run at one provider.
+  std::shared_ptr<functions_beside> beside =
+      std::make_shared<functions_beside>();
+
+  /// @returns how a vehicle looks at the others.
+  planners::scene_params look() const {
+    planners::scene_params how;
+    how.judges_crossings = !crossings_granted;
+    how.sees_opposite_m = eyes.range_m;
+    how.houses = &roads->houses();
+    return how;
+  }
 };
 
 using planning_world_ptr = std::shared_ptr<const planning_world>;

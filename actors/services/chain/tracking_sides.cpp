@@ -1,0 +1,205 @@
+// Tracking in a vehicle and at a provider: what each has of it.
+#include "actors/services/chain/tracking_sides.hpp"
+
+#include "actors/services/chain/track_words.hpp"
+#include "actors/services/planning/perceived_at.hpp"
+#include "actors/services/planning/plan_request.hpp"
+#include "base/protocol.hpp"
+#include "planners/scene/object_tracker.hpp"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace sofof::actors {
+
+namespace {
+
+messages::payload copied(std::span<const planners::track> tracks) {
+  return messages::payload::of(known_tracks{{tracks.begin(), tracks.end()}});
+}
+
+// -- in the vehicle -----------------------------------------------------------
+
+class onboard_tracking final : public offloading::service_function {
+public:
+  explicit onboard_tracking(const planning_world& world)
+      : model_{planners::noise_of(world.eyes)} {}
+
+  offloading::service_output
+  run(time_point now, const messages::service_input& input) override {
+    const auto request = input.what.as<plan_request>();
+    if (!request)
+      return {};
+    take_in(now, *request);
+    return copied(model_.tracks());
+  }
+
+  void observe(time_point now, const messages::service_input& input) override {
+    if (const auto request = input.what.as<plan_request>())
+      take_in(now, *request);
+  }
+
+private:
+  // Every sight counts once.
+  void take_in(time_point now, const plan_request& request) {
+    const auto& seen = request.seen;
+    if (seen.at == taken_in_ || protocol::is_of_future(seen.at, now))
+      return;
+    taken_in_ = seen.at;
+    model_.update(seen.at, seen.objects, request.own.position);
+  }
+
+  planners::object_tracker model_;
+  std::optional<time_point> taken_in_;
+};
+
+/// Tracks that a provider tells are the sightings of a good sensor.
+class told_tracks final : public offloading::result_judge {
+public:
+  explicit told_tracks(planning_world_ptr world)
+      : world_{std::move(world)}, model_{planners::noise_of(world_->eyes)} {}
+
+  offloading::judged_result judge(const messages::payload& result,
+                                  const messages::service_input&,
+                                  time_point now) override {
+    const auto message = result.as<messages::its_pdu>();
+    const auto told =
+        message ? read_objects(*message, *world_, now) : std::nullopt;
+    if (!told)
+      return {.useless = objection{"unreadable", 1, 0}};
+    model_.update(told->at, told->objects);
+    return {copied(model_.tracks())};
+  }
+
+private:
+  planning_world_ptr world_;
+  planners::object_tracker model_;
+};
+
+class tracking_in_vehicle final : public offloading::vehicle_service {
+public:
+  explicit tracking_in_vehicle(planning_world_ptr world)
+      : world_{std::move(world)} {}
+
+  std::shared_ptr<offloading::service_function> make_function() const override {
+    return std::make_shared<onboard_tracking>(*world_);
+  }
+
+  /// A CPM of all that was seen in one look.
+  messages::service_input encode_input(messages::service_input input,
+                                       bool) const override {
+    const auto request = input.what.as<plan_request>();
+    if (!request)
+      return {};
+    auto message = make_look_words(request->own, request->seen, *world_);
+    if (message.octets.empty())
+      return {};
+    input.what = messages::payload::of(std::move(message));
+    input.in_use = {};
+    return input;
+  }
+
+  std::unique_ptr<offloading::result_judge> make_judge() const override {
+    return std::make_unique<told_tracks>(world_);
+  }
+
+private:
+  planning_world_ptr world_;
+};
+
+// -- at a provider ------------------------------------------------------------
+
+/// One vehicle's part of what the provider perceives.
+class edge_tracking final : public offloading::service_function,
+                            public others_source {
+public:
+  edge_tracking(planning_world_ptr world, offloading::provider_context provider,
+                station_id vehicle, std::shared_ptr<edge_perception> perceived)
+      : world_{std::move(world)}, provider_{std::move(provider)},
+        vehicle_{vehicle}, perceived_{std::move(perceived)} {}
+
+  offloading::service_output
+  run(time_point now, const messages::service_input& input) override {
+    const auto message = input.what.as<messages::its_pdu>();
+    auto look = message ? read_objects(*message, *world_, now) : std::nullopt;
+    if (!look || look->from != vehicle_)
+      return {};
+    for (auto& id : look->ids)
+      id = next_id_++; // those of a look mean nothing in the next one
+    perceived_->on_objects(
+        *look, message->sender.value_or(sender_id{vehicle_.value()}));
+    if (!has_begun_ && !perceived_->knows_surroundings_of(vehicle_))
+      return {};
+    has_begun_ = true;
+    tracks(tracks_, vehicle_);
+    const auto near =
+        look->eye ? look->eye->at : provider_.position; // of the vehicle
+    auto told = make_track_words({{.station = provider_.station,
+                                   .at = now,
+                                   .position = provider_.position},
+                                  true},
+                                 near, tracks_, vehicle_, *world_);
+    if (told.octets.empty())
+      return {};
+    return messages::payload::of(std::move(told));
+  }
+
+  void tracks(std::vector<planners::track>& out, station_id station) override {
+    perceived_->tracks(out, station);
+  }
+  void drives(std::vector<planners::told_drive>& out,
+              station_id station) override {
+    perceived_->drives(out, station);
+  }
+
+private:
+  planning_world_ptr world_;
+  offloading::provider_context provider_;
+  station_id vehicle_;
+  std::shared_ptr<edge_perception> perceived_;
+  std::uint32_t next_id_ = 0;           // of an object of a look
+  bool has_begun_ = false;              // to tell tracks
+  std::vector<planners::track> tracks_; // room that is used again
+};
+
+class tracking_at_provider final : public listening_service {
+public:
+  tracking_at_provider(planning_world_ptr world,
+                       offloading::provider_context provider)
+      : world_{std::move(world)}, provider_{std::move(provider)},
+        perceived_{perceived_at(*world_, provider_)} {}
+
+  std::shared_ptr<offloading::service_function>
+  make_function(station_id vehicle) override {
+    auto made =
+        std::make_shared<edge_tracking>(world_, provider_, vehicle, perceived_);
+    world_->beside->add(chain_part::tracking, provider_.id, vehicle, made);
+    return made;
+  }
+
+  broadcast_listener* listener() override { return perceived_.get(); }
+
+private:
+  planning_world_ptr world_;
+  offloading::provider_context provider_;
+  std::shared_ptr<edge_perception> perceived_;
+};
+
+} // namespace
+
+std::shared_ptr<offloading::vehicle_service>
+make_tracking_in_vehicle(planning_world_ptr world) {
+  return std::make_shared<tracking_in_vehicle>(std::move(world));
+}
+
+std::shared_ptr<offloading::provider_service>
+make_tracking_at_provider(planning_world_ptr world,
+                          offloading::provider_context provider) {
+  return std::make_shared<tracking_at_provider>(std::move(world),
+                                                std::move(provider));
+}
+
+} // namespace sofof::actors
