@@ -19,7 +19,7 @@ namespace {
 /// longest message.
 constexpr std::size_t most_told = 128;
 
-messages::its_pdu told(const messages::perceived_scene& scene,
+messages::its_pdu cpm_of(const messages::perceived_scene& scene,
                        const planning_world& world) {
   return messages::encoded(
       messages::make_cpm_ts103324(scene, world.car, *world.where));
@@ -39,7 +39,7 @@ messages::its_pdu make_look_words(const messages::cam& own,
   scene.seen = seen.at;
   scene.objects = objects;
   scene.perceived = seen.objects.size();
-  return told(scene, world);
+  return cpm_of(scene, world);
 }
 
 messages::its_pdu make_track_words(const track_teller& from, point near,
@@ -70,7 +70,7 @@ messages::its_pdu make_track_words(const track_teller& from, point near,
   scene.objects = objects;
   scene.perceived = tracks.size();
   scene.at_roadside = from.at_roadside;
-  return told(scene, world);
+  return cpm_of(scene, world);
 }
 
 std::optional<messages::object_list>
