@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t most_told = 128;
 
 messages::its_pdu cpm_of(const messages::perceived_scene& scene,
-                       const planning_world& world) {
+                         const planning_world& world) {
   return messages::encoded(
       messages::make_cpm_ts103324(scene, world.car, *world.where));
 }

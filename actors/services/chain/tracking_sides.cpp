@@ -1,17 +1,16 @@
 // Tracking in a vehicle and at a provider: what each has of it.
 #include "actors/services/chain/tracking_sides.hpp"
 
+#include "actors/services/chain/edge_tracking.hpp"
 #include "actors/services/chain/track_words.hpp"
 #include "actors/services/planning/perceived_at.hpp"
 #include "actors/services/planning/plan_request.hpp"
 #include "base/protocol.hpp"
 #include "planners/scene/object_tracker.hpp"
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace sofof::actors {
 
@@ -112,59 +111,6 @@ private:
 
 // -- at a provider ------------------------------------------------------------
 
-/// One vehicle's part of what the provider perceives.
-class edge_tracking final : public offloading::service_function,
-                            public others_source {
-public:
-  edge_tracking(planning_world_ptr world, offloading::provider_context provider,
-                station_id vehicle, std::shared_ptr<edge_perception> perceived)
-      : world_{std::move(world)}, provider_{std::move(provider)},
-        vehicle_{vehicle}, perceived_{std::move(perceived)} {}
-
-  offloading::service_output
-  run(time_point now, const messages::service_input& input) override {
-    const auto message = input.what.as<messages::its_pdu>();
-    auto look = message ? read_objects(*message, *world_, now) : std::nullopt;
-    if (!look || look->from != vehicle_)
-      return {};
-    for (auto& id : look->ids)
-      id = next_id_++; // those of a look mean nothing in the next one
-    perceived_->on_objects(
-        *look, message->sender.value_or(sender_id{vehicle_.value()}));
-    if (!has_begun_ && !perceived_->knows_surroundings_of(vehicle_))
-      return {};
-    has_begun_ = true;
-    tracks(tracks_, vehicle_);
-    const auto near =
-        look->eye ? look->eye->at : provider_.position; // of the vehicle
-    auto told = make_track_words({{.station = provider_.station,
-                                   .at = now,
-                                   .position = provider_.position},
-                                  true},
-                                 near, tracks_, vehicle_, *world_);
-    if (told.octets.empty())
-      return {};
-    return messages::payload::of(std::move(told));
-  }
-
-  void tracks(std::vector<planners::track>& out, station_id station) override {
-    perceived_->tracks(out, station);
-  }
-  void drives(std::vector<planners::told_drive>& out,
-              station_id station) override {
-    perceived_->drives(out, station);
-  }
-
-private:
-  planning_world_ptr world_;
-  offloading::provider_context provider_;
-  station_id vehicle_;
-  std::shared_ptr<edge_perception> perceived_;
-  std::uint32_t next_id_ = 0;           // of an object of a look
-  bool has_begun_ = false;              // to tell tracks
-  std::vector<planners::track> tracks_; // room that is used again
-};
-
 class tracking_at_provider final : public listening_service {
 public:
   tracking_at_provider(planning_world_ptr world,
@@ -174,10 +120,7 @@ public:
 
   std::shared_ptr<offloading::service_function>
   make_function(station_id vehicle) override {
-    auto made =
-        std::make_shared<edge_tracking>(world_, provider_, vehicle, perceived_);
-    world_->beside->add(chain_part::tracking, provider_.id, vehicle, made);
-    return made;
+    return make_edge_tracking(world_, provider_, vehicle, perceived_);
   }
 
   broadcast_listener* listener() override { return perceived_.get(); }
