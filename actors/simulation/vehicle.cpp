@@ -173,9 +173,9 @@ vehicle(vehicle_impl::stateful_pointer<vehicle_actor_state> self,
   return {
       [self](const messages::service_result& x) { self->state.on_result(x); },
       [self](const messages::source_change& x) { self->state.on_source(x); },
-      [links](const messages::requester_manager_actor& x) { links->ask(x); },
+      [links](const messages::requester_manager_actor& x) { links->join(x); },
       [links](std::uint32_t place, const messages::chain_stage_actor& stage) {
-        links->add_stage(place, stage);
+        links->join(place, stage);
       },
       [links](const messages::crossing_driver_actor& x) { links->tell(x); },
       [self](const messages::payload& agreed) { self->state.agreed = agreed; },

@@ -46,12 +46,12 @@ public:
   }
 
   /// Who plans for the vehicle.
-  void ask(messages::requester_manager_actor planner) {
+  void join(messages::requester_manager_actor planner) {
     planner_ = std::move(planner);
     join_stages();
   }
   /// At this place of the chain before that there is another service.
-  void add_stage(std::uint32_t place, messages::chain_stage_actor stage) {
+  void join(std::uint32_t place, messages::chain_stage_actor stage) {
     stages_[place] = std::move(stage);
     join_stages();
   }

@@ -239,6 +239,18 @@ TEST_CASE("what was read is told on in the same octets") {
   }
 }
 
+TEST_CASE("a scene of the future or of long ago does not hold") {
+  const time_point now{100s};
+  decoded_scene told;
+  for (const auto& [age, does] : {std::pair{0ms, true},
+                                  {1000ms, true},
+                                  {1001ms, false},
+                                  {-60000ms, false}}) {
+    told.at = now - age;
+    CHECK(holds(told, now) == does);
+  }
+}
+
 TEST_CASE("what stays in the vehicle is not told") {
   const auto own = told_by(1);
   auto scene = test::random_scene(1, own);

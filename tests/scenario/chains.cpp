@@ -100,7 +100,7 @@ TEST_CASE(
 TEST_CASE("in every split of the chain over one provider what is offered is "
           "offloaded, and the vehicles stay safe") {
   const service_name names[] = {"tracking", "environment_model",
-                                    "trajectory_planning"};
+                                "trajectory_planning"};
   for (unsigned which = 1; which < 8; ++which) {
     CAPTURE(which);
     const auto run = played(offering(which));

@@ -80,7 +80,7 @@ public:
     const auto message = result.as<messages::its_pdu>();
     auto told = message ? read_scene_words(*message, *world_->where, now)
                         : std::nullopt;
-    if (!told || told->from != vehicle_)
+    if (!told || told->from != vehicle_ || !holds(*told, now))
       return {.useless = objection{"unreadable", 1, 0}};
     move(told->scene,
          way->path().project(told->position, request->from.s_m).s_m);

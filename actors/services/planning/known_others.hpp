@@ -71,6 +71,7 @@ public:
   void add(chain_part part, provider_id provider, station_id vehicle,
            const std::shared_ptr<others_source>& what) {
     const std::lock_guard lock{mutex_};
+    std::erase_if(running_, [](const auto& x) { return x.second.expired(); });
     running_[{part, provider, vehicle}] = what;
   }
 

@@ -17,7 +17,7 @@ others_around::on_input(const messages::payload& what, time_point now) {
     auto told = words->all.size() > 1
                     ? read_scene_words(words->all[1], *world_->where, now)
                     : std::nullopt;
-    if (told && told->from == vehicle_)
+    if (told && told->from == vehicle_ && holds(*told, now))
       told_ = std::move(told);
     else
       told_.reset();

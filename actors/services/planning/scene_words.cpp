@@ -2,6 +2,7 @@
 #include "actors/services/planning/scene_words.hpp"
 
 #include "actors/services/planning/scene_units.hpp"
+#include "base/protocol.hpp"
 #include "messages/v2x/encoded.hpp"
 
 #include <algorithm>
@@ -99,6 +100,11 @@ read_scene_words(const messages::its_pdu& message,
 }
 
 // -- along the way ------------------------------------------------------------
+
+bool holds(const decoded_scene& scene, time_point now) {
+  constexpr duration oldest = std::chrono::seconds{1};
+  return !protocol::is_of_future(scene.at, now) && now - scene.at <= oldest;
+}
 
 void move(planners::driving_scene& scene, double by_m) {
   assert(std::isfinite(by_m));

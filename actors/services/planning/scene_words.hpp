@@ -62,6 +62,10 @@ std::optional<decoded_scene>
 read_scene_words(const messages::its_pdu& message,
                  const messages::georeference& where, time_point now);
 
+/// @returns whether a scene that was told is neither of the future nor older
+/// than any service may be late.
+bool holds(const decoded_scene& scene, time_point now);
+
 /// Moves a scene along the way.
 /// @param by_m  Is added to all arc lengths.
 void move(planners::driving_scene& scene, double by_m);
