@@ -178,6 +178,8 @@ void requester::on_offer(const messages::service_offer& offer, peer_id from,
   trace_.add(step::offer_got, offer, setup_.station, now);
   provider.offer = offer;
   provider.offered_at = now;
+  if (!setup_.chain.empty() && offer.created && *offer.created <= now)
+    provider.way.add(now - *offer.created);
   learn(offer, now);
   if (provider.open_request)
     return;
@@ -309,8 +311,11 @@ requester::decide(service_state& service,
   if (providers.empty() || (offering && !knows(*offering)))
     return {};
   ++decisions_;
+  const auto chain = setup_.policy->needs_chain()
+                         ? chain_view(now)
+                         : std::vector<policies::chain_link>{};
   const auto decision =
-      setup_.policy->decide(context_of(service, providers, path, now));
+      setup_.policy->decide(context_of(service, providers, chain, path, now));
   if (std::holds_alternative<policies::come_home>(decision.what)) {
     leave(service, {messages::end_reason::released, decision.why.text()}, now,
           [](provider_id) { return true; });
@@ -348,6 +353,7 @@ requester::decide(service_state& service,
 policies::local_context
 requester::context_of(const service_state& service,
                       std::span<const policies::provider_view> providers,
+                      std::span<const policies::chain_link> chain,
                       std::span<const point> path, time_point now) const {
   assert(service.since <= now);
   return {.now = now,
@@ -362,6 +368,7 @@ requester::context_of(const service_state& service,
           .needs = service.needs,
           .on_board = service.on_board,
           .safe_response = service.safe_response(now),
+          .chain = chain,
           .future = setup_.future.get()};
 }
 
@@ -386,7 +393,7 @@ std::vector<candidate> requester::candidates(service_state& service,
                                              time_point now) {
   assert(!service.find(asked));
   const auto known = service.views(providers_, std::nullopt, now);
-  const auto context = context_of(service, known, path, now);
+  const auto context = context_of(service, known, {}, path, now);
   std::vector<policies::provider_view> left;
   for (const auto& x : known)
     if (!service.find(x.id)

@@ -27,7 +27,9 @@ namespace sofof::offloading {
 /// What a requester is made of.
 struct requester_setup {
   station_id station = 0;
-  std::vector<onboard_service> services;          ///< With different names.
+  std::vector<onboard_service> services; ///< With different names.
+  /// Those of them that form a chain, in its order; empty: none do.
+  std::vector<messages::service_name> chain{};
   std::unique_ptr<policies::local_policy> policy; ///< Not null.
   world::computer_options computer{};             ///< The vehicle's.
   random_stream noise{0, ""};                     ///< Of this vehicle.
@@ -197,10 +199,16 @@ private:
   policies::local_context
   context_of(const service_state& service,
              std::span<const policies::provider_view> providers,
+             std::span<const policies::chain_link> chain,
              std::span<const point> path, time_point now) const;
   std::vector<candidate> candidates(service_state& service, provider_id asked,
                                     std::span<const point> path,
                                     time_point now);
+  policies::service_times times_of(const service_state& service) const;
+  std::vector<policies::chain_link> chain_view(time_point now);
+  void learn_times(service_state& service,
+                   const messages::service_result& result, time_point now);
+  void predict_response(time_point now);
   void set_standby(service_state& service, duration after);
   std::string own_services_of(const messages::service_offer& offer) const;
   void request(provider_id id, std::vector<messages::service_name> wanted,

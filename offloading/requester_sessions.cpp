@@ -139,6 +139,8 @@ void requester::on_result(const messages::service_result& result,
   found.session->confirmed = now;
   auto& service = *found.service;
   const auto provider = result.session.provider;
+  if (!setup_.chain.empty())
+    learn_times(service, result, now);
   const auto latency = now - result.created;
   auto& link = service.link_of(provider);
   if (service.is_standby(provider))
@@ -262,6 +264,7 @@ void requester::on_first_data(const messages::session_id& session,
   else
     log_switch(session, true, now);
   leave_unwanted(service, now);
+  predict_response(now);
   assert(is_consistent());
 }
 
@@ -420,6 +423,7 @@ void requester::log_end(service_state& service, const requester_session& ended,
   if (comes_home) {
     service.since = now;
     log_switch(ended.session, false, now);
+    predict_response(now);
   } else if (was_remote) {
     log(messages::event_type::left, ended.session,
         messages::name_of(why.reason), now);
@@ -460,41 +464,6 @@ void requester::send_end(const messages::service_end& e) {
     return;
   trace_.add(step::end_sent, e, now_);
   port_.send(i->second.peer, e);
-}
-
-// -- records ------------------------------------------------------------------
-
-void requester::log_verdict(const service_state& service, provider_id provider,
-                            std::uint32_t counter, std::string_view why,
-                            bool accepted, time_point now) {
-  const auto& name = service.service.name;
-  port_.record(messages::decision_record{now, setup_.station, name, accepted});
-  log(accepted ? messages::event_type::accepted : messages::event_type::refused,
-      {provider, setup_.station, name, counter}, why, now);
-}
-
-void requester::log_switch(const messages::session_id& session, bool remote,
-                           time_point now) {
-  port_.record(messages::event_record{.at = now,
-                                      .what = messages::event_type::switched,
-                                      .station = setup_.station,
-                                      .provider = session.provider,
-                                      .service = session.service,
-                                      .counter = session.counter,
-                                      .detail = remote ? "remote" : "local",
-                                      .remote = remote});
-}
-
-void requester::log(messages::event_type what,
-                    const messages::session_id& session,
-                    std::string_view detail, time_point now) {
-  port_.record(messages::event_record{.at = now,
-                                      .what = what,
-                                      .station = setup_.station,
-                                      .provider = session.provider,
-                                      .service = session.service,
-                                      .counter = session.counter,
-                                      .detail = std::string{detail}});
 }
 
 } // namespace sofof::offloading

@@ -9,6 +9,15 @@
 
 namespace sofof::offloading {
 
+namespace {
+
+policies::time_law run_time_law(const world::cycle_options& x) {
+  return policies::time_law::normal(x.run_time_mean, x.run_time_sd,
+                                    x.run_time_max);
+}
+
+} // namespace
+
 bool known_provider::offers(const messages::service_name& service) const {
   return std::ranges::find(offer.services, service) != offer.services.end();
 }
@@ -22,7 +31,11 @@ service_state::service_state(onboard_service what,
                                       worst_response(offloading::on(
                                           computer, service.options))},
       on_board{world::on_board_cost(computer, service.options.compute)},
-      offloaded{offloaded_cost(computer, service.options)}, since{now} {
+      offloaded{offloaded_cost(computer, service.options)}, since{now},
+      times{service.options.per_input ? duration{0} : service.options.period,
+            service.options.input_period,
+            run_time_law(offloading::on(computer, service.options).compute),
+            {}} {
   assert(service.own);
   assert(needs.period > duration{0});
   assert(needs.max_latency > duration{0}

@@ -29,6 +29,8 @@ struct known_provider {
   messages::service_offer offer{};
   time_point offered_at{};
   distrust doubted{}; ///< Since its results were implausible.
+  /// How long offers were on their way.
+  policies::time_law way{};
 
   bool offers(const messages::service_name& service) const;
 };
@@ -74,6 +76,10 @@ struct service_state {
   std::map<provider_id, time_point> cool_until{};
   /// By what came from there.
   std::map<provider_id, policies::link_estimator> links{};
+  /// What its results took; of a provider by its results alone.
+  policies::service_times times{};
+  /// When the latest input was made that has had a result.
+  time_point answered_input{};
 
   /// @param computer  The vehicle's.
   service_state(onboard_service what, const world::computer_options& computer,

@@ -49,6 +49,13 @@ local_decision filtered_lodm::decide(const local_context& context) {
   auto rest = context;
   rest.here = where_it_runs(context);
   rest.providers = left;
+  std::vector<chain_link> chain{context.chain.begin(), context.chain.end()};
+  for (auto& link : chain)
+    std::erase_if(link.providers, [&](const provider_view& provider) {
+      return provider.id != link.place
+             && !filter_->objection(context, provider).empty();
+    });
+  rest.chain = chain;
   return choice_->decide(rest);
 }
 

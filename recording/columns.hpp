@@ -56,6 +56,16 @@ struct scene_row {
   time_point start;
 };
 
+struct response_row {
+  const messages::response_record& x;
+  std::string split;
+  std::string services_ms; ///< In the chain's order, "-" for no time.
+  time_point start;
+
+  response_row(const messages::response_record& x, const provider_names& names,
+               time_point start);
+};
+
 struct trace_row {
   const messages::trace_record& x;
   time_point start;
@@ -203,6 +213,17 @@ inline constexpr csv_column<scene_row> of_scenes[]{
     {"safe_ms", [](const auto& r) { return milliseconds(r.x.safe); }},
     {"because", [](const auto& r) { return std::string_view{r.x.because}; }},
     {"response_ms", [](const auto& r) { return milliseconds(r.x.response); }},
+};
+
+inline constexpr csv_column<response_row> of_responses[]{
+    {"t_s", [](const auto& r) { return seconds(r.x.sensed_at - r.start); }},
+    {"station", [](const auto& r) { return r.x.station.value(); }},
+    {"split", [](const auto& r) { return std::string_view{r.split}; }},
+    {"response_ms", [](const auto& r) { return milliseconds(r.x.response()); }},
+    {"waited_ms", [](const auto& r) { return milliseconds(r.x.waited); }},
+    {"services_ms",
+     [](const auto& r) { return std::string_view{r.services_ms}; }},
+    {"control_ms", [](const auto& r) { return milliseconds(r.x.control); }},
 };
 
 inline constexpr csv_column<trace_row> of_trace[]{

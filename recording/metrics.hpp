@@ -6,6 +6,7 @@
 #include "messages/protocol/record.hpp"
 #include "recording/cycle_ledger.hpp"
 #include "recording/load_table.hpp"
+#include "recording/response_table.hpp"
 #include "recording/run_info.hpp"
 
 #include <array>
@@ -227,6 +228,7 @@ public:
   const switch_metrics& switches() const { return switches_; }
   const air_metrics& air() const { return air_; }
   const load_table& load() const { return load_; }
+  const response_table& responses() const { return responses_; }
   /// @returns the vehicles whose headline service is remote just now.
   std::size_t offloaded_now() const;
 
@@ -263,6 +265,12 @@ private:
   void add(const messages::trip_record& x);
   void add(const messages::plan_switch_record& x);
   void add(const messages::air_record& x);
+  void add(const messages::response_record& x) {
+    responses_[split_of(x, names_)].add(x);
+  }
+  void add(const messages::prediction_record& x) {
+    responses_[split_of(x, names_)].add(x);
+  }
   template <class Other>
   void add(const Other&) {}
 
@@ -287,6 +295,7 @@ private:
   switch_metrics switches_;
   air_metrics air_;
   load_table load_;
+  response_table responses_;
 };
 
 } // namespace sofof::recording

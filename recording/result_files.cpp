@@ -106,9 +106,28 @@ void result_files::write(const messages::scene_record& x) {
   scenes_->write({x, start_});
 }
 
+void result_files::write(const messages::response_record& x) {
+  if (!responses_)
+    responses_.emplace(folder_ / "responses.csv", columns::of_responses);
+  responses_->write({x, names_, start_});
+}
+
 void result_files::write(const messages::air_record& x) {
   if (pcap_)
     pcap_->write(x);
+}
+
+response_row::response_row(const messages::response_record& record,
+                           const provider_names& names, time_point t)
+    : x{record}, split{split_of(record, names)}, start{t} {
+  for (const auto& part : record.parts) {
+    if (!services_ms.empty())
+      services_ms += ' ';
+    if (part.took)
+      append(services_ms, milliseconds(part.took));
+    else
+      services_ms += '-';
+  }
 }
 
 trace_row::trace_row(const messages::trace_record& record, time_point t)
@@ -141,6 +160,8 @@ void result_files::flush() {
     claims_->flush();
   if (scenes_)
     scenes_->flush();
+  if (responses_)
+    responses_->flush();
   if (trace_)
     trace_->flush();
   events_.flush();
@@ -162,6 +183,8 @@ void result_files::finish(const metrics& all, const run_info& run,
     claims_->close();
   if (scenes_)
     scenes_->close();
+  if (responses_)
+    responses_->close();
   if (trace_)
     trace_->close();
   events_.close();

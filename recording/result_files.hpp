@@ -57,6 +57,7 @@ private:
   void write(const messages::track_record& x);
   void write(const messages::claim_record& x);
   void write(const messages::scene_record& x);
+  void write(const messages::response_record& x);
   void write(const messages::air_record& x);
   void write(const messages::trace_record& x);
   template <class Other>
@@ -77,8 +78,9 @@ private:
   std::optional<csv_file<cycle_row>> cycles_;
   std::optional<csv_file<track_row>> tracks_;
   std::optional<csv_file<margin_row>> margins_;
-  std::optional<csv_file<claim_row>> claims_; // once there is one
-  std::optional<csv_file<scene_row>> scenes_; // likewise
+  std::optional<csv_file<claim_row>> claims_;       // once there is one
+  std::optional<csv_file<scene_row>> scenes_;       // likewise
+  std::optional<csv_file<response_row>> responses_; // likewise
   std::optional<csv_file<trace_row>> trace_;
   csv_file<disturbed_row> disturbed_;
   output_file events_;

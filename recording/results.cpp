@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <utility>
+#include <vector>
 
 namespace sofof::recording {
 
@@ -49,15 +50,24 @@ event_of(const messages::plan_switch_record& x) {
 } // namespace
 
 results::results(std::filesystem::path folder, run_info run)
-    : run_{std::move(run)}, metrics_{run_}, files_{std::in_place,
-                                                   std::move(folder), run_} {}
+    : run_{std::move(run)}, metrics_{run_}, ledger_{run_.chain},
+      files_{std::in_place, std::move(folder), run_} {}
 
-results::results(run_info run) : run_{std::move(run)}, metrics_{run_} {}
+results::results(run_info run)
+    : run_{std::move(run)}, metrics_{run_}, ledger_{run_.chain} {}
 
 void results::on_record(const messages::record& x) {
   if (auto line = std::visit([](const auto& r) { return event_of(r); }, x))
     keep(std::move(*line));
   keep(x);
+  std::visit([this](const auto& r) { follow(r); }, x);
+}
+
+void results::follow(const messages::stage_record& x) {
+  std::vector<messages::response_record> known;
+  ledger_.add(x, known);
+  for (const auto& response : known)
+    keep(response);
 }
 
 void results::keep(const messages::record& x) {
@@ -90,6 +100,10 @@ run_end results::finish(time_point end, double wall_s, bool interrupted,
                         standstill stood_still) {
   const run_end outcome{to_seconds(end - run_.start), wall_s, interrupted,
                         stood_still};
+  std::vector<messages::response_record> rest;
+  ledger_.finish(rest);
+  for (const auto& response : rest)
+    keep(response);
   metrics_.finish(end);
   if (files_)
     files_->finish(metrics_, run_, outcome, of_clock_);

@@ -5,6 +5,7 @@
 #include "messages/protocol/record.hpp"
 #include "recording/cpu_table.hpp"
 #include "recording/metrics.hpp"
+#include "recording/response_ledger.hpp"
 #include "recording/result_files.hpp"
 #include "recording/run_info.hpp"
 
@@ -63,9 +64,14 @@ public:
 
 private:
   void keep(const messages::record& x);
+  template <class Record>
+  void follow(const Record&) {}
+  void follow(const messages::look_record& x) { ledger_.add(x); }
+  void follow(const messages::stage_record& x);
 
   run_info run_;
   metrics metrics_;
+  response_ledger ledger_;
   figures_of_clock of_clock_;
   std::optional<result_files> files_;
 };

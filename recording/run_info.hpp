@@ -60,6 +60,8 @@ struct run_info {
   std::uint32_t obstacles = 0; ///< They have the highest station ids.
   recording::provider_names provider_names;
   std::vector<std::string> services; ///< Names, in the order of reports.
+  /// Those of them that form a chain, in its order; fewer than two: none do.
+  std::vector<std::string> chain;
   /// The kind whose figures stand at the top level of the summary.
   std::string headline_kind = "trajectory_planning";
   service_costs costs;  ///< Of the vehicles that are driven here.

@@ -121,6 +121,34 @@ void loads(json_object& to, const load_table& table, duration length) {
   }
 }
 
+/// How late vehicles responded to what they saw, by split.
+void responses(json_object& to, const response_table& table,
+               const std::vector<std::string>& chain) {
+  if (table.empty())
+    return;
+  auto all = to.object("response");
+  for (const auto& [split, x] : table) {
+    auto of = all.object(split);
+    of.member("looks", x.all.ms().count());
+    of.member("skipped", x.skipped);
+    of.member("p50_ms", rounded(x.all.quantile_ms(0.5), places_of_load));
+    of.member("p99_ms", rounded(x.all.quantile_ms(0.99), places_of_load));
+    of.member("max_ms", rounded(x.all.ms().max(), places_of_load));
+    of.member("predicted_p99_ms",
+              rounded(x.predicted_p99_ms.mean(), places_of_load));
+    auto mean = of.object("mean_ms");
+    const auto part = [&mean](std::string_view name, const statistics& s) {
+      const auto mean_s = s.mean();
+      mean.member(name, rounded(mean_s ? std::optional{1e3 * *mean_s} : mean_s,
+                                places_of_load));
+    };
+    part("waited", x.waited_s);
+    for (std::size_t k = 0; k < x.services_s.size(); ++k)
+      part(chain[k], x.services_s[k]);
+    part("control", x.control_s);
+  }
+}
+
 /// The provider's view.
 void served(json_object& to, const service_in_run& x) {
   constexpr std::string_view path = "served.";
@@ -169,6 +197,7 @@ std::string summary_json(const metrics& m, const run_info& run,
         write(object, service_cost_figures(), x);
       }
     }
+    responses(top, m.responses(), run.chain);
     loads(top, m.load(), from_seconds(end.virtual_s));
     write(top, clock_figures(), whole);
   }

@@ -379,6 +379,10 @@ private:
   requester_maker(
       const placed_vehicle& v, const planners::route_profile_ptr& road,
       std::shared_ptr<const policies::channel_oracle> future) const {
+    std::vector<messages::service_name> chain;
+    if (const auto names = chain_of(s_); names.size() > 1)
+      for (const auto& name : names)
+        chain.emplace_back(name);
     std::vector<actors::client_service> services;
     for (std::size_t k = 0; k < services_.size(); ++k)
       services.push_back(
@@ -390,7 +394,7 @@ private:
                  ->spawn_client({sys, car, station, road, recorder, place})
                  .actor;
            }});
-    return [&sys = sys_, station = v.station, way = v.way, services,
+    return [&sys = sys_, station = v.station, way = v.way, services, chain,
             lodm = s_.policies.lodm, recorder = world_.recorder,
             noise = noise_of(s_, "vehicle").part(v.station.value()),
             virtual_time = virtual_time_, computer = s_.fleets[v.fleet].compute,
@@ -406,6 +410,7 @@ private:
           actors::spawn_service_requester(sys, {.station = station,
                                                 .path_ahead = path_ahead,
                                                 .services = services,
+                                                .chain = chain,
                                                 .lodm = lodm->clone(),
                                                 .vehicle = vehicle,
                                                 .recorder = recorder,

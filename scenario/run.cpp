@@ -88,6 +88,7 @@ recording::run_info describe(const scenario_definition& s,
     info.provider_names.emplace(k + 1, s.providers[k].name);
   for (const auto& type : s.services)
     info.services.emplace_back(type->name());
+  info.chain = chain_of(s);
   info.pcap = options.pcap;
   info.cycles = s.record.cycles;
   info.tracks = s.record.tracks;

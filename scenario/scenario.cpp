@@ -242,6 +242,14 @@ std::uint32_t place_in_chain(const scenario_definition& s,
   return before ? place_in_chain(s, *before) + 1 : 0;
 }
 
+std::vector<std::string> chain_of(const scenario_definition& s) {
+  std::vector<std::string> names;
+  const auto* type = planning_service(s);
+  for (; type; type = find_service(s, type->follows()))
+    names.emplace(names.begin(), type->name());
+  return names;
+}
+
 std::string to_toml(scenario_definition what) {
   return print_options([&](option_visitor& s) { what.visit_options(s); });
 }

@@ -110,6 +110,10 @@ const actors::service_type* planning_service(const scenario_definition& s);
 const actors::service_type* find_service(const scenario_definition& s,
                                          std::string_view name);
 
+/// @returns the names of the services that form a chain with the planning
+/// service as the last one, in their order.
+std::vector<std::string> chain_of(const scenario_definition& s);
+
 /// @returns the place of a service in its chain, the first being 0; 0 for one
 /// that is in none.
 std::uint32_t place_in_chain(const scenario_definition& s,

@@ -32,6 +32,7 @@ rules_of(requester_actor_setup vehicle,
          std::vector<offloading::onboard_service> services) {
   return {.station = vehicle.station,
           .services = std::move(services),
+          .chain = std::move(vehicle.chain),
           .policy = std::move(vehicle.lodm),
           .computer = vehicle.computer,
           .noise = vehicle.noise,

@@ -78,6 +78,10 @@ public:
   use(const received_plan& next, const messages::service_result& from,
       time_point now);
 
+  bool goes_by(const world::trajectory& plan) const {
+    return plan_.get() == &plan;
+  }
+
   /// Where to plan from: the point of the plan in use if the car is there, so
   /// that plans join without a jolt, else the car.
   planners::planning_input plan_from(time_point now) const;

@@ -135,14 +135,15 @@ struct vehicle_actor_state {
     links->ask({{},
                 from.at,
                 setup.plans->ask(*setup.car.way, from, newest, car->ego().own,
-                                 agreed)});
+                                 agreed)},
+               newest.at);
   }
 
   void on_result(const messages::service_result& result) {
     catch_up();
-    const auto next = setup.plans ? setup.plans->read(result) : std::nullopt;
-    if (next)
-      links->record(car->use(*next, result, now(self)));
+    if (const auto next =
+            setup.plans ? setup.plans->read(result) : std::nullopt)
+      links->go_by(*next, result, *car);
   }
 
   void on_source(const messages::source_change& change) {

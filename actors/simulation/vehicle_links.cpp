@@ -4,6 +4,7 @@
 #include "actors/runtime/record_on_air.hpp"
 #include "actors/runtime/recorder.hpp"
 #include "actors/runtime/time.hpp"
+#include "base/protocol.hpp"
 
 #include <caf/typed_event_based_actor.hpp>
 
@@ -77,8 +78,24 @@ void vehicle_links::join_stages() {
   }
 }
 
-void vehicle_links::ask(messages::service_input input) {
+void vehicle_links::ask(messages::service_input input, time_point sensed_at) {
+  if (!stages_.empty())
+    send_record(self_, setup_.recorder,
+                messages::look_record{setup_.car.station, sensed_at, input.at});
   self_->send(first_, std::move(input));
+}
+
+void vehicle_links::go_by(const received_plan& next,
+                          const messages::service_result& from,
+                          driven_car& car) {
+  const auto t = now(self_);
+  if (auto jump = car.use(next, from, t))
+    send_record(self_, setup_.recorder, std::move(*jump));
+  if (!stages_.empty() && car.goes_by(*next.plan))
+    send_record(self_, setup_.recorder,
+                messages::stage_record{setup_.car.station, from.session.service,
+                                       from.session.provider, t, from.timing,
+                                       car.at() + protocol::control_period});
 }
 
 void vehicle_links::log_event(messages::event_type what) {
@@ -90,12 +107,6 @@ void vehicle_links::log_event(messages::event_type what) {
 
 void vehicle_links::record(const driven_car& car, bool remote) {
   send_record(self_, setup_.recorder, car.track(remote));
-}
-
-void vehicle_links::record(
-    const std::optional<messages::plan_switch_record>& jump) {
-  if (jump)
-    send_record(self_, setup_.recorder, *jump);
 }
 
 void vehicle_links::record_figures(driven_car& car) {

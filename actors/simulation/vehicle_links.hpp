@@ -57,11 +57,14 @@ public:
   }
   bool is_planned_for() const { return first_ != nullptr; }
   /// The first of the chain has new input.
-  void ask(messages::service_input input);
+  /// @param sensed_at  When what is in it was seen.
+  void ask(messages::service_input input, time_point sensed_at);
+  /// The last one has a plan: the car goes by it if it can.
+  void go_by(const received_plan& next, const messages::service_result& from,
+             driven_car& car);
 
   void log_event(messages::event_type what);
   void record(const driven_car& car, bool remote);
-  void record(const std::optional<messages::plan_switch_record>& jump);
   void record_figures(driven_car& car);
   /// Its drive ends: the rest of its figures, and its trip.
   void record_trip(driven_car& car);

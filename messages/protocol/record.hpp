@@ -153,6 +153,60 @@ struct scene_record {
   std::optional<duration> response{};
 };
 
+/// What a vehicle has seen goes into its chain of services.
+struct look_record {
+  station_id station = 0;
+  time_point sensed_at; ///< The sensing instant.
+  time_point input_at;  ///< When the input of the first service was made.
+};
+
+/// A result of a service of a chain has come to who uses it.
+struct stage_record {
+  station_id station = 0;
+  service_name service;
+  provider_id provider = 0; ///< That computed it; 0: the vehicle.
+  time_point got;
+  result_timing timing;
+  /// Of the last service: when the first control value depends on it.
+  std::optional<time_point> control_at{};
+
+  /// @returns when its cycle began.
+  time_point begun() const {
+    const auto& [input_at, up, queue, computing, down] = timing;
+    return got - down.wait - down.travel - computing - queue;
+  }
+};
+
+/// The first control value that depends on a look of a vehicle's sensors, and
+/// where the time went until then; the parts add up.
+struct response_record {
+  struct part {
+    service_name service;
+    provider_id provider = 0; ///< 0: the vehicle.
+    /// Until its result was in the vehicle. Nullopt: the next service asked it
+    /// at the same provider, and the time is part of that one's.
+    std::optional<duration> took{};
+    duration up{}, down{}; ///< Of `took`; the rest is waiting and computing.
+  };
+  station_id station = 0;
+  time_point sensed_at;
+  time_point control_at;
+  duration waited{}; ///< For a later look, if this one was lost on the way.
+  std::vector<part> parts; ///< By service, in the order of the chain.
+  duration control{};      ///< From the plan to the control value.
+
+  duration response() const { return control_at - sensed_at; }
+};
+
+/// The chain of a vehicle is split otherwise from now on: how late it will
+/// respond to what it sees, by what it has measured before.
+struct prediction_record {
+  time_point at;
+  station_id station = 0;
+  std::vector<service_place> split; ///< By service, in the chain's order.
+  duration p50{}, p99{};
+};
+
 /// A vehicle has taken its first plan from another source into use.
 struct plan_switch_record {
   time_point at;
@@ -179,6 +233,7 @@ using record =
     std::variant<event_record, decision_record, cycle_record, work_record,
                  episode_record, track_record, safety_record, collision_record,
                  drive_record, trip_record, claim_record, scene_record,
+                 look_record, stage_record, response_record, prediction_record,
                  plan_switch_record, air_record, trace_record>;
 
 /// Gets the records of a run; implemented by whoever keeps them.

@@ -5,6 +5,7 @@
 #include "base/geometry.hpp"
 #include "base/ids.hpp"
 #include "base/random.hpp"
+#include "policies/algorithms/splits/chain_response.hpp"
 #include "policies/api/decision.hpp"
 #include "policies/api/gain.hpp"
 #include "policies/api/periodic_task.hpp"
@@ -69,6 +70,19 @@ public:
                                 time_point from, time_point until) const = 0;
 };
 
+/// What a vehicle knows of one service of its chain.
+struct chain_link {
+  std::string_view service; ///< Its name.
+  /// Where it runs; while it moves, where it goes to.
+  service_place place{};
+  bool moves = false;
+  /// Where it runs, and those that may be asked for it now.
+  std::vector<provider_view> providers;
+  service_needs needs{};
+  world::cycle_cost on_board{}; ///< Of a cycle in the vehicle.
+  service_times times{};        ///< As measured so far.
+};
+
 /// What a requester weighs: one of its services, and where it may run.
 struct local_context {
   time_point now;
@@ -88,6 +102,9 @@ struct local_context {
   /// The longest response time under which the scene is safe; nullopt: the
   /// service does not say.
   std::optional<duration> safe_response{};
+  /// All services of the vehicle's chain, in its order; empty if they form
+  /// none.
+  std::span<const chain_link> chain{};
   /// Only where a run can tell; null elsewhere.
   const channel_oracle* future = nullptr;
   /// Where it runs, in case a filter keeps that from `providers`:

@@ -74,6 +74,10 @@ public:
   /// scene is safe: `local_context::safe_response`.
   virtual bool needs_scene() const { return false; }
 
+  /// @returns whether it decides about the services of a vehicle's chain
+  /// together: `local_context::chain`.
+  virtual bool needs_chain() const { return false; }
+
   /// @returns what it has learned, as text for `restore`; empty for nothing.
   virtual std::string snapshot() const { return {}; }
   /// Takes up what another one of this kind and options has learned.

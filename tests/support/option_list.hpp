@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace sofof::test {
 
@@ -19,6 +20,7 @@ struct option_values {
   std::map<std::string, duration, std::less<>> times{};
   std::map<std::string, std::string, std::less<>> texts{};
   std::map<std::string, bool, std::less<>> flags{};
+  std::map<std::string, std::vector<std::string>, std::less<>> lists{};
   /// Of lists of tables; the k-th table of "a" is "a.k".
   std::map<std::string, std::size_t, std::less<>> lengths{};
 };
@@ -58,8 +60,9 @@ public:
     CAPTURE(key);
     CHECK(value >= min);
   }
-  void field(std::string_view key, std::vector<std::string>&) override {
+  void field(std::string_view key, std::vector<std::string>& value) override {
     found(key);
+    set(lists, key, value);
   }
   void field(std::string_view key, point&) override { found(key); }
   void field(std::string_view key, std::vector<point>&) override { found(key); }

@@ -1,6 +1,7 @@
 // What stands between two services of a chain in a vehicle.
 #include "actors/services/chain/chain_stage.hpp"
 
+#include "actors/runtime/recorder.hpp"
 #include "actors/runtime/time.hpp"
 
 #include <caf/stateful_actor.hpp>
@@ -16,6 +17,8 @@ struct chain_stage_state {
   static inline const char* name = "chain_stage";
 
   messages::chain_stage_actor::pointer self = nullptr;
+  messages::recorder_actor recorder;
+  station_id station = 0;
   onward make;
   messages::requester_manager_actor service; // whose client it is
   messages::input_actor next;
@@ -30,15 +33,25 @@ struct chain_stage_state {
   void on_result(const messages::service_result& result) {
     if (!next || newest.empty())
       return;
-    if (auto what = make(newest, result); !what.empty())
-      self->send(next, messages::service_input{{}, now(self), std::move(what)});
+    auto what = make(newest, result);
+    if (what.empty())
+      return;
+    const auto t = now(self);
+    send_record(self, recorder,
+                messages::stage_record{station, result.session.service,
+                                       result.session.provider, t,
+                                       result.timing});
+    self->send(next, messages::service_input{{}, t, std::move(what)});
   }
 };
 
 messages::chain_stage_actor::behavior_type chain_stage(
     messages::chain_stage_actor::stateful_pointer<chain_stage_state> self,
-    const messages::vehicle_actor& vehicle, std::uint32_t place, onward make) {
+    const messages::vehicle_actor& vehicle, std::uint32_t place,
+    messages::recorder_actor recorder, station_id station, onward make) {
   self->state.self = self;
+  self->state.recorder = std::move(recorder);
+  self->state.station = station;
   self->state.make = std::move(make);
   self->send(vehicle, place, messages::chain_stage_actor{self});
   return {
@@ -57,7 +70,7 @@ messages::chain_stage_actor::behavior_type chain_stage(
 messages::client_actor spawn_chain_stage(const client_place& where,
                                          onward make) {
   return where.system.spawn(chain_stage, where.vehicle, where.place,
-                            std::move(make));
+                            where.recorder, where.station, std::move(make));
 }
 
 } // namespace sofof::actors

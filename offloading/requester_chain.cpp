@@ -1,0 +1,87 @@
+// What a requester knows of services that form a chain, and how late the
+// vehicle will respond to what it sees when they run elsewhere.
+#include "offloading/requester.hpp"
+
+#include <cassert>
+#include <utility>
+
+namespace sofof::offloading {
+
+namespace {
+
+/// Fewer results of a service do not tell what others will take.
+constexpr double least_results = 20;
+
+} // namespace
+
+// Only the first result of each input counts: a later one of the same input has
+// waited for a further cycle.
+void requester::learn_times(service_state& service,
+                            const messages::service_result& result,
+                            time_point now) {
+  const auto& [input_at, up, queue, computing, down] = result.timing;
+  if (input_at <= service.answered_input || input_at > now)
+    return;
+  service.answered_input = input_at;
+  auto& there = service.times.at[result.session.provider];
+  there.up.add(up.wait + up.travel);
+  there.computing.add(queue + computing);
+  there.down.add(down.wait + down.travel);
+}
+
+// Where few results came, the way is that of offers, and the computing as these
+// say.
+policies::service_times
+requester::times_of(const service_state& service) const {
+  auto times = service.times;
+  for (const auto& [id, provider] : providers_) {
+    auto& there = times.at[id];
+    if (there.down.count() >= least_results)
+      continue;
+    there.up = there.down = provider.way;
+    there.computing =
+        policies::time_law::exactly(service.computing(provider.offer));
+  }
+  return times;
+}
+
+std::vector<policies::chain_link> requester::chain_view(time_point now) {
+  std::vector<policies::chain_link> chain;
+  for (const auto& name : setup_.chain) {
+    auto* service = find(name);
+    assert(service);
+    const auto moves = service->is_moving();
+    chain.push_back({.service = service->service.name.view(),
+                     .place = moves && !service->wanted.empty()
+                                  ? service_place{service->wanted.front()}
+                                  : service->current(),
+                     .moves = moves,
+                     .providers = service->views(providers_, std::nullopt, now),
+                     .needs = service->needs,
+                     .on_board = service->on_board,
+                     .times = times_of(*service)});
+  }
+  return chain;
+}
+
+void requester::predict_response(time_point now) {
+  if (setup_.chain.empty())
+    return;
+  messages::prediction_record found{
+      .at = now, .station = setup_.station, .split = {}};
+  std::vector<policies::service_times> times;
+  for (const auto& name : setup_.chain) {
+    const auto* service = find(name);
+    assert(service);
+    found.split.push_back(service->current());
+    times.push_back(times_of(*service));
+  }
+  const auto law = policies::predicted_response(times, found.split);
+  if (!law.is_known())
+    return;
+  found.p50 = *law.quantile(0.5);
+  found.p99 = *law.quantile(0.99);
+  port_.record(std::move(found));
+}
+
+} // namespace sofof::offloading
