@@ -10,7 +10,7 @@ namespace {
 void add_place(std::string& all, provider_id provider,
                const provider_names& names) {
   if (!all.empty())
-    all += ", ";
+    all += '>';
   all += provider == 0 ? "vehicle" : name_of(provider, names);
 }
 

@@ -29,7 +29,7 @@ struct split_responses {
 };
 
 /// By split: where each service of the chain ran, in its order, as
-/// "vehicle, mec, mec".
+/// "vehicle>mec>mec".
 using response_table = std::map<std::string, split_responses>;
 
 /// @returns where the services ran that a response depends on.

@@ -142,10 +142,10 @@ TEST_CASE("responses are lines of responses.csv and figures of their split, "
   }
   CHECK(content_of(dir / "responses.csv")
         == "t_s,station,split,response_ms,waited_ms,services_ms,control_ms\n"
-           "5.000000000,101,\"vehicle, mec, vehicle\",50.000000,0.000000,"
+           "5.000000000,101,vehicle>mec>vehicle,50.000000,0.000000,"
            "2.000000 30.000000 13.000000,5.000000\n");
   const auto summary = content_of(dir / "summary.json");
-  CHECK(summary.find("\"vehicle, mec, vehicle\"") != summary.npos);
+  CHECK(summary.find("vehicle>mec>vehicle") != summary.npos);
   CHECK(summary.find("\"p99_ms\": 50") != summary.npos);
   results later{dir.path(), run()};
   later.finish(at(100s), 2, false);
