@@ -27,6 +27,7 @@ public:
   void observe(const episode_outcome& outcome) override;
   double epoch_s() const override;
   bool needs_scene() const override;
+  bool foresees_home(const local_context& context) const override;
   std::string snapshot() const override { return whole_->snapshot(); }
   std::optional<std::string> restore(std::string_view text) override {
     return whole_->restore(text);
