@@ -20,8 +20,10 @@ bool source_selector::run_along(time_point now) {
   const auto runs = is_remote() && warm_.runs_along(now);
   if (runs)
     call_own(now);
-  else if (std::exchange(own_runs_along_, false))
+  else if (std::exchange(own_runs_along_, false)) {
+    drop_own();
     port_.rest();
+  }
   return runs;
 }
 
@@ -29,7 +31,7 @@ bool source_selector::run_along(time_point now) {
 void source_selector::call_own(time_point now) {
   assert(is_remote() && warm_.runs_along(now));
   if (!std::exchange(own_runs_along_, true))
-    newest_own_.reset();
+    drop_own();
   auto input = newest_;
   input.standby = true;
   port_.run_along(std::move(input));
@@ -41,8 +43,14 @@ void source_selector::take_own(const messages::service_result& result,
   assert(result.created <= now);
   if (!warm_.is_on())
     return; // it had begun before a provider took over
-  ++work_.along;
+  drop_own();
   newest_own_ = result;
+}
+
+/// It was computed for nothing.
+void source_selector::drop_own() {
+  work_.along += newest_own_.has_value();
+  newest_own_.reset();
 }
 
 void source_selector::await_missed_result() {
@@ -93,6 +101,9 @@ void source_selector::come_home(const messages::service_end& end,
   }
   own_runs_along_ = false;
   warm_.end();
+  if (at_once)
+    newest_own_.reset();
+  drop_own();
   if (!at_once)
     port_.go_local(newest_);
   trace_.add(step::source,

@@ -184,6 +184,7 @@ private:
   bool run_along(time_point now);
   void call_own(time_point now);
   void take_own(const messages::service_result& result, time_point now);
+  void drop_own();
   void await_missed_result();
   void on_missed_result(time_point now);
   std::optional<messages::service_result> ready(time_point now) const;

@@ -305,14 +305,14 @@ TEST_CASE_FIXTURE(warm_world, "results of it that are not used are counted as "
                               "work") {
   until(20ms);
   input();
-  own_result();
-  own_result();
+  for (int k = 0; k < 3; ++k)
+    own_result();
   selector.record_work();
-  CHECK(work.along == 2);
+  CHECK(work.along == 2); // the third one may still be of use
   CHECK(work.on_board == 0);
   end();
   own_result();
   selector.record_work();
   CHECK(work.along == 0);
-  CHECK(work.on_board == 2); // one of them was ready
+  CHECK(work.on_board == 2);
 }
