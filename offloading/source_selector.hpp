@@ -207,7 +207,8 @@ private:
   warm_standby warm_;
   bool own_runs_along_ = false;
   std::optional<messages::service_result> newest_own_; // since it runs along
-  time_point believed_from_;       // what it began before may go on from a lie
+  time_point believed_from_ =
+      time_point::min();           // what it began before may go on from a lie
   messages::session_id watched_;   // by whose name the watchdog watches
   messages::service_input newest_; // of no session; with the result in use,
   messages::session_id used_from_; // the session that it is of,

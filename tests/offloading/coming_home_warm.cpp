@@ -172,7 +172,7 @@ TEST_CASE_FIXTURE(warm_world, "the own function is called for each input for "
   CHECK(news() == words{"run"});
   CHECK(called.standby);
   CHECK(called.in_use.as<echo>()->number == 2);
-  drive_until(1900ms);
+  drive_until(1950ms);
   news();
   until(2s);
   input();
@@ -205,7 +205,7 @@ TEST_CASE_FIXTURE(warm_world, "what it has ready is used at the very moment at "
   own_result();
   CHECK(selector.is_remote());
   news();
-  until(100ms);
+  until(70ms);
   SUBCASE("after a fault") {
     end();
   }
@@ -290,7 +290,7 @@ TEST_CASE_FIXTURE(warm_world, "who foresees a change home has it run along at "
   CHECK(news() == words{"run"});
   selector.on_home_is_near(now);
   CHECK(news().empty());
-  drive_until(6'900ms);
+  drive_until(6'950ms);
   news();
   until(7s);
   input();
