@@ -142,7 +142,7 @@ struct warm_world : offloading::selector_port {
   }
   /// Results come every 50 ms, inputs every 100 ms.
   void drive_until(duration t) {
-    for (auto k = now - at(0s) + 50ms; k <= t; k += 50ms) {
+    for (auto k = ((now - at(0s)) / 50ms + 1) * 50ms; k <= t; k += 50ms) {
       until(k);
       if (k % 100ms == 0ms)
         input();
