@@ -137,9 +137,9 @@ std::optional<double> on_board_percent(const summary_figures& run,
     return std::nullopt;
   double busy_s = 0;
   for (const auto& service : by.services)
-    busy_s += (run.cycles_on_board(service.name)
-               + run.cycles_along(service.name))
-              * service.local_s;
+    busy_s +=
+        (run.cycles_on_board(service.name) + run.cycles_along(service.name))
+        * service.local_s;
   return percent * busy_s / driven_s;
 }
 
