@@ -33,6 +33,10 @@ inline constexpr tick_atom tick_atom_v{};
 struct no_standby_atom {};
 inline constexpr no_standby_atom no_standby_atom_v{};
 
+/// A service may come home soon.
+struct home_is_near_atom {};
+inline constexpr home_is_near_atom home_is_near_atom_v{};
+
 template <class... Ts>
 using reacts_to = caf::result<void>(Ts...);
 
@@ -72,6 +76,8 @@ using requester_manager_actor = result_actor::extend<
     reacts_to<standby>,
     // No provider stands by any more.
     reacts_to<no_standby_atom>,
+    // The service may come home soon.
+    reacts_to<home_is_near_atom>,
     // The session has ended: the local service plans at once.
     reacts_to<service_end>>;
 

@@ -67,6 +67,7 @@ CAF_ADD_TYPE_ID(sofof, (sofof::messages::handshake_actor))
 CAF_ADD_TYPE_ID(sofof, (sofof::messages::acceptor_actor))
 CAF_ADD_TYPE_ID(sofof, (sofof::messages::begin_atom))
 CAF_ADD_TYPE_ID(sofof, (sofof::messages::no_standby_atom))
+CAF_ADD_TYPE_ID(sofof, (sofof::messages::home_is_near_atom))
 CAF_ADD_TYPE_ID(sofof, (sofof::messages::admission))
 
 CAF_ADD_TYPE_ID(sofof, (sofof::messages::air_actor))

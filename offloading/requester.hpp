@@ -59,6 +59,8 @@ public:
   /// This provider stands by from now on; nullopt: none does.
   virtual void set_standby(const messages::service_name& service,
                            const std::optional<messages::standby>& chosen) = 0;
+  /// The service may come home soon.
+  virtual void foresee_home(const messages::service_name& service) = 0;
 
   /// Whether any service is run by a provider has perhaps changed.
   virtual void on_placement(bool any_remote) = 0;
@@ -186,6 +188,7 @@ private:
   known_provider& meet(provider_id id, peer_id peer);
   bool is_in_use(provider_id id) const;
   void learn(const messages::service_offer& offer, time_point now);
+  void look_ahead(service_state& service, time_point now);
   void distrust_peer_of(provider_id provider, time_point now);
 
   template <class Predicate>

@@ -155,6 +155,19 @@ void requester::on_result(const messages::service_result& result,
       .missed = !in_time(result.created, now, service.needs.max_latency),
       .energy_j = service.offloaded.energy_j});
   port_.forward(result);
+  look_ahead(service, now);
+}
+
+// Whether the service may come home soon, for an own function that then runs
+// along.
+void requester::look_ahead(service_state& service, time_point now) {
+  if (service.service.options.warm_standby == duration{0}
+      || !service.is_remote())
+    return;
+  const auto path = setup_.path_ahead(ego_);
+  const auto known = service.views(providers_, std::nullopt, now);
+  if (setup_.policy->foresees_home(context_of(service, known, path, now)))
+    port_.foresee_home(service.service.name);
 }
 
 void requester::on_digest(const messages::session_digest& digest, peer_id from,

@@ -28,7 +28,7 @@ void source_selector::announce_roles(time_point now) {
 /// The cycle after one that began at `start` shall be answered.
 void source_selector::await_cycle_after(time_point start) {
   began_ = start;
-  ++timer_;
+  timer_ = ++timers_;
   if (standby_)
     port_.wake_at(began_ + options().period + standby_->after, timer_);
 }
@@ -37,7 +37,9 @@ void source_selector::await_cycle_after(time_point start) {
 /// stood still.
 void source_selector::on_timer(std::uint64_t number, time_point now) {
   pass(now);
-  assert(number <= timer_);
+  assert(number <= timers_);
+  if (number == missing_timer_)
+    on_missed_result(now);
   if (number != timer_ || !is_remote())
     return;
   assert(standby_);

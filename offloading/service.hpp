@@ -27,6 +27,9 @@ struct service_options {
   /// Whether each input has one result, whose latency begins with the input;
   /// else a result comes in every period, from the newest input.
   bool per_input = false;
+  /// For so long around a change of source the vehicle's own function runs
+  /// along: offloading/warm_standby.
+  duration warm_standby{};
   world::cycle_options compute; ///< What a cycle asks of who computes it.
 
   void visit_options(option_visitor& s) {
@@ -37,6 +40,7 @@ struct service_options {
     s.field("period", period, 1ms);
     s.field("input_period", input_period, 1ms);
     s.field("per_input", per_input);
+    s.field("warm_standby", warm_standby, duration{0});
     for (const std::string key :
          {"demand", "run_time_mean", "run_time_sd", "run_time_max"})
       s.moved(key, "compute." + key);

@@ -68,6 +68,8 @@ void service_cycle::on_input(const messages::service_input& input,
     setup_.function->observe(now, newest_);
   else if (!has_timer_)
     begin(now);
+  else if (input.at_once)
+    run(now, true);
   assert(is_consistent());
 }
 
@@ -113,19 +115,22 @@ void service_cycle::await_next(time_point now) {
   port_.wake_at(next_on_grid(now, setup_.phase, setup_.period), timer_);
 }
 
-void service_cycle::run(time_point now) {
+void service_cycle::run(time_point now, bool is_besides) {
   assert(state_ == messages::lifecycle_state::active);
+  const auto is_called = is_besides || waits_for_input();
   const auto on_grid = grid_number(now);
-  const auto cycle = next_number(on_grid);
+  // A call off the grid may run one cycle more than the grid has by then.
+  const auto cycle =
+      std::max(on_grid, is_called ? after_any_ : after_off_grid_);
   const auto is_ahead = cycle > on_grid + 1;
   if (newest_.what.empty() || is_ahead)
     return;
   auto output = setup_.function->run(now, newest_);
   if (output.what.empty())
     return;
-  assert(cycle >= after_any_ || !waits_for_input());
+  assert(cycle >= after_any_ || !is_called);
   after_any_ = cycle + 1;
-  if (waits_for_input() || cycle > on_grid)
+  if (is_called || cycle > on_grid)
     after_off_grid_ = after_any_;
   assert(after_off_grid_ <= after_any_);
   const auto work = setup_.finish(now, cycle);
@@ -146,11 +151,6 @@ void service_cycle::run(time_point now) {
 std::uint64_t service_cycle::grid_number(time_point t) const {
   return static_cast<std::uint64_t>(
       (t.time_since_epoch() - setup_.phase + setup_.period) / setup_.period);
-}
-
-// A call off the grid may run one cycle more than the grid has by then.
-std::uint64_t service_cycle::next_number(std::uint64_t on_grid) const {
-  return std::max(on_grid, waits_for_input() ? after_any_ : after_off_grid_);
 }
 
 } // namespace sofof::offloading

@@ -50,7 +50,8 @@ public:
 ///   grid (or on its grid only), always from the newest input; without any
 ///   input it waits.
 /// * While it stands by, or if each input has one result, it runs one cycle for
-///   each input, at once, but at most one more than the grid has by then.
+///   each input, at once, but at most one more than the grid has by then; so it
+///   does, besides its grid, for an input that says `at_once`.
 /// * A cycle that takes longer than a period does not delay the next one in
 ///   virtual time (`finish` says when each is done, a wait for a worker
 ///   included); where time is real, it does, and what the grid had meanwhile
@@ -83,10 +84,9 @@ private:
   void begin(time_point now);
   void stop_timer();
   void await_next(time_point now);
-  void run(time_point now);
+  void run(time_point now, bool is_besides = false);
 
   std::uint64_t grid_number(time_point t) const;
-  std::uint64_t next_number(std::uint64_t on_grid) const;
 
   cycle_setup setup_;
   cycle_port& port_;

@@ -36,7 +36,9 @@ messages::implausibility told(const objection& why) {
 source_selector::source_selector(selector_setup setup, selector_port& port)
     : setup_{std::move(setup)}, port_{port},
       trace_{messages::trace_part::selector, sink_of(setup_.trace, port)},
-      answers_{options().period}, work_{setup_.station, setup_.service.name} {
+      answers_{options().period}, warm_{options().warm_standby,
+                                        options().limits},
+      work_{setup_.station, setup_.service.name} {
   assert(setup_.service.own);
   assert(options().period > duration{0});
   assert(options().limits.max_latency > duration{0});
@@ -93,7 +95,8 @@ void source_selector::on_input(const messages::service_input& input,
   newest_.what = input.what;
   if (setup_.asks_scene)
     look_at_scene(now);
-  port_.feed_local(input);
+  if (!run_along(now))
+    port_.feed_local(input);
   for (auto& x : sources_)
     if (input_due(x, now) && !(x.in_use && is_standby(x)))
       feed(x, now);
@@ -163,7 +166,9 @@ void source_selector::on_result(const messages::service_result& result,
   pass(now);
   assert(is_consistent());
   if (!result.session.is_remote()) {
-    if (!is_remote())
+    if (is_remote())
+      take_own(result, now);
+    else if (options().per_input || result.created >= believed_from_)
       use(result, now);
     return;
   }
@@ -383,13 +388,18 @@ void source_selector::use(const messages::service_result& result,
   used_at_ = now;
   used_input_at_ = result.timing.input_at;
   port_.use(result);
+  if (!is_remote() || !warm_.is_on())
+    return;
+  warm_.on_used(result.created, used_input_at_, now);
+  if (missing_timer_ == 0)
+    await_missed_result();
 }
 
 void source_selector::record_work() {
-  if (work_.on_board == 0 && work_.inputs == 0)
+  if (work_.on_board == 0 && work_.inputs == 0 && work_.along == 0)
     return;
   port_.record(messages::work_record{work_});
-  work_.on_board = work_.inputs = 0;
+  work_.on_board = work_.inputs = work_.along = 0;
 }
 
 // -- from one source to another -----------------------------------------------
@@ -401,6 +411,7 @@ void source_selector::begin(source& x, time_point now) {
   trace_.add(step::first_data, x.session, now);
   if (!was_remote) {
     port_.go_remote();
+    warm_.begin(now);
     watch(x.session, now);
     trace_.add(step::source, x.session, now);
     port_.announce_source(true);
@@ -432,15 +443,7 @@ void source_selector::on_end(const messages::service_end& end, time_point now) {
   if (!was_in_use)
     return;
   if (!is_remote()) {
-    trace_.add(step::unwatched, end.session, now);
-    port_.watch_end(end);
-    if (end.reason == messages::end_reason::implausible)
-      newest_.in_use = {}; // the own function does not go on from that
-    port_.go_local(newest_);
-    trace_.add(step::source,
-               messages::session_id{0, setup_.station, setup_.service.name, 0},
-               now);
-    port_.announce_source(false);
+    come_home(end, now);
     assert(is_consistent());
     return;
   }

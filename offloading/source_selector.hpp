@@ -8,6 +8,7 @@
 #include "offloading/service.hpp"
 #include "offloading/standby.hpp"
 #include "offloading/tracer.hpp"
+#include "offloading/warm_standby.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -42,6 +43,11 @@ public:
 
   /// From now on results come from providers: the own function rests.
   virtual void go_remote() = 0;
+  /// The own function runs a cycle from this input, though its result is not
+  /// used, and one more whenever it is asked to, until it rests again.
+  virtual void run_along(messages::service_input input) = 0;
+  /// The own function rests again.
+  virtual void rest() = 0;
   /// The own function plans at once, from this input.
   virtual void go_local(messages::service_input input) = 0;
   /// The client is told that its source has changed.
@@ -76,7 +82,10 @@ public:
 /// * of several providers the first result of each cycle is used, if the result
 ///   in use may be followed by it; one that has not been in time for
 ///   protocol::start_timeout is reported;
-/// * when the last of them ends, the own function plans at once.
+/// * when the last of them ends, the own function plans at once; if it has run
+///   along (warm_standby.hpp), its latest result is used in the same instant,
+///   unless that is old, or does not continue the one in use, or an implausible
+///   result is the reason.
 ///
 /// No clock and no I/O: every call says what time it is, never less than
 /// before.
@@ -96,6 +105,9 @@ public:
 
   /// A result has come, of the own function (counter 0) or of a provider.
   void on_result(const messages::service_result& result, time_point now);
+
+  /// The service may come home soon, as who decides about it foresees.
+  void on_home_is_near(time_point now);
 
   /// A session has ended; one that is not known is ignored.
   void on_end(const messages::service_end& end, time_point now);
@@ -169,6 +181,15 @@ private:
   bool may_follow(const messages::service_result& result, time_point now) const;
   void give_up_silent(time_point now);
 
+  bool run_along(time_point now);
+  void call_own(time_point now);
+  void take_own(const messages::service_result& result, time_point now);
+  void drop_own();
+  void await_missed_result();
+  void on_missed_result(time_point now);
+  std::optional<messages::service_result> ready(time_point now) const;
+  void come_home(const messages::service_end& end, time_point now);
+
   void use(const messages::service_result& result, time_point now);
   void begin(source& x, time_point now);
   void watch(const messages::session_id& session, time_point last);
@@ -179,15 +200,22 @@ private:
   std::vector<source> sources_; // the oldest first
   first_response answers_;      // of cycles, by any of them
   std::optional<messages::standby> standby_;
-  time_point began_;        // the latest cycle of a source that is fed always
-  std::uint64_t timer_ = 0; // the one that counts
-  messages::session_id watched_;       // by whose name the watchdog watches
-  messages::service_input newest_;     // of no session; with the result in use,
-  messages::session_id used_from_;     // the session that it is of,
-  time_point used_at_;                 // when it came,
-  time_point used_input_at_;           // and when its input was made
-  messages::work_record work_;         // since the last such record,
-  time_point work_since_;              // which was then
+  time_point began_;         // the latest cycle of a source that is fed always
+  std::uint64_t timers_ = 0; // so many have been set
+  std::uint64_t timer_ = 0;  // the one for a cycle's answer that counts
+  std::uint64_t missing_timer_ = 0; // for a missing result; 0: none
+  warm_standby warm_;
+  bool own_runs_along_ = false;
+  std::optional<messages::service_result> newest_own_; // since it runs along
+  time_point believed_from_ =
+      time_point::min();           // what it began before may go on from a lie
+  messages::session_id watched_;   // by whose name the watchdog watches
+  messages::service_input newest_; // of no session; with the result in use,
+  messages::session_id used_from_; // the session that it is of,
+  time_point used_at_;             // when it came,
+  time_point used_input_at_;       // and when its input was made
+  messages::work_record work_;     // since the last such record,
+  time_point work_since_;          // which was then
   time_point now_ = time_point::min(); // of the latest call
 };
 

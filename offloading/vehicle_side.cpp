@@ -159,9 +159,13 @@ private:
       own.on_step(messages::lifecycle_step::deactivate, all.now_);
     }
     void go_local(messages::service_input input) override {
+      run_along(std::move(input));
+    }
+    void run_along(messages::service_input input) override {
       own.on_input(input, all.now_);
       own.on_step(messages::lifecycle_step::activate, all.now_);
     }
+    void rest() override { go_remote(); }
     void announce_source(bool remote) override {
       all.port_.on_source(name, remote);
     }
@@ -322,6 +326,9 @@ private:
   void set_standby(const messages::service_name& service,
                    const std::optional<messages::standby>& chosen) override {
     at(service).selector.on_standby(chosen, now_);
+  }
+  void foresee_home(const messages::service_name& service) override {
+    at(service).selector.on_home_is_near(now_);
   }
   void on_placement(bool) override {}
   void record(messages::record&& x) override { port_.record(std::move(x)); }

@@ -59,6 +59,12 @@ local_decision filtered_lodm::decide(const local_context& context) {
   return choice_->decide(rest);
 }
 
+bool filtered_lodm::foresees_home(const local_context& context) const {
+  const auto* here = where_it_runs(context);
+  return (here && !filter_->objection(context, *here).empty())
+         || choice_->foresees_home(context);
+}
+
 std::unique_ptr<local_policy> filtered_lodm::clone() const {
   auto copy = std::make_unique<filtered_lodm>(choice_->clone());
   copy->filter_ = filter_->clone();

@@ -64,6 +64,8 @@ public:
   explicit filtered_lodm(std::unique_ptr<local_policy> choice);
 
   local_decision decide(const local_context& context) override;
+  /// Also if the filter would not let through where it runs.
+  bool foresees_home(const local_context& context) const override;
   std::unique_ptr<local_policy> clone() const override;
 };
 

@@ -48,6 +48,13 @@ bool governed_lodm::needs_scene() const {
          || std::ranges::any_of(governors_, &governor::needs_scene);
 }
 
+bool governed_lodm::foresees_home(const local_context& context) const {
+  return whole_->foresees_home(context)
+         || std::ranges::any_of(governors_, [&](const auto& x) {
+              return x->foresees_home(context);
+            });
+}
+
 void governed_lodm::visit_options(option_visitor& s) {
   whole_->visit_options(s);
   s.tables("govern", governors_.size(),

@@ -28,6 +28,7 @@ public:
   double epoch_s() const override;
   bool needs_scene() const override;
   bool needs_chain() const override { return whole_->needs_chain(); }
+  bool foresees_home(const local_context& context) const override;
   std::string snapshot() const override { return whole_->snapshot(); }
   std::optional<std::string> restore(std::string_view text) override {
     return whole_->restore(text);

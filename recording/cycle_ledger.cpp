@@ -15,6 +15,7 @@ cycle_figures& cycle_figures::operator+=(const cycle_figures& x) {
   offloaded += x.offloaded;
   results += x.results;
   inputs += x.inputs;
+  along += x.along;
   return *this;
 }
 
@@ -35,6 +36,7 @@ void cycle_ledger::add(const messages::work_record& x) {
   auto& sum = counts_[{x.service, x.station}].figures;
   sum.on_board += x.on_board;
   sum.inputs += x.inputs;
+  sum.along += x.along;
 }
 
 void cycle_ledger::add(const messages::cycle_record& x) {
@@ -97,7 +99,7 @@ energy_figures cycle_ledger::energy_of(const user& who,
   const auto times = [](std::uint64_t count, double energy_j) {
     return static_cast<double>(count) * energy_j;
   };
-  return {times(x.on_board, cost.on_board_j),
+  return {times(x.on_board + x.along, cost.on_board_j),
           times(x.inputs, cost.input_j) + times(x.results, cost.result_j),
           times(x.on_board + x.offloaded, cost.on_board_j)};
 }

@@ -18,6 +18,7 @@ struct cycle_figures {
   std::uint64_t offloaded = 0; ///< By a provider, and the result was used.
   std::uint64_t results = 0;   ///< From all providers, used or not.
   std::uint64_t inputs = 0;    ///< That vehicles sent to providers.
+  std::uint64_t along = 0;     ///< In the vehicle, and the result was not used.
 
   /// @returns the share of cycles that were offloaded; nullopt for none.
   std::optional<double> offloaded_share() const;

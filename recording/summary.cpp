@@ -99,6 +99,12 @@ void margins_of(json_object& to, const std::map<std::string, double>& least) {
     object.member(name, rounded(left, places_of_margin));
 }
 
+/// What its own functions computed though results of providers were used.
+void ran_along(json_object& to, const cycle_figures& cycles) {
+  if (cycles.along > 0)
+    to.object("warm_standby").member("cycles", cycles.along);
+}
+
 /// How busy workers and cells were.
 void loads(json_object& to, const load_table& table, duration length) {
   auto all = to.object("load");
@@ -195,6 +201,7 @@ std::string summary_json(const metrics& m, const run_info& run,
         margins_of(object, service.margins);
         served(object, x);
         write(object, service_cost_figures(), x);
+        ran_along(object, m.work().cycles(service.service));
       }
     }
     responses(top, m.responses(), run.chain);

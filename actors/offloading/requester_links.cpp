@@ -75,6 +75,10 @@ void requester_links::set_standby(
     self_->send(manager, messages::no_standby_atom_v);
 }
 
+void requester_links::foresee_home(const messages::service_name& service) {
+  self_->send(managers_.at(service), messages::home_is_near_atom_v);
+}
+
 // For whom it works, in case accounts are kept.
 void requester_links::on_placement(bool any_remote) {
   charge(self_->system(), self_->id(), {station_, {}, any_remote});

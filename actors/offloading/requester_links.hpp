@@ -45,6 +45,7 @@ public:
   void end(const messages::service_end& end) override;
   void set_standby(const messages::service_name& service,
                    const std::optional<messages::standby>& chosen) override;
+  void foresee_home(const messages::service_name& service) override;
   void on_placement(bool any_remote) override;
   void record(messages::record&& x) override;
   void wake_at(time_point t, std::uint64_t number) override;

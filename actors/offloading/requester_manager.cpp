@@ -68,6 +68,9 @@ requester_manager_impl::behavior_type requester_manager(
       [self](messages::no_standby_atom) {
         self->state.selector->on_standby(std::nullopt, now(self));
       },
+      [self](messages::home_is_near_atom) {
+        self->state.selector->on_home_is_near(now(self));
+      },
       [self](const messages::service_end& end) { self->state.on_end(end); },
       [self](messages::tick_atom, std::uint64_t number) {
         self->state.selector->on_timer(number, now(self));

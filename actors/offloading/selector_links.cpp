@@ -63,8 +63,16 @@ void selector_links::go_remote() {
 
 void selector_links::go_local(messages::service_input input) {
   charge_all(false);
+  run_along(std::move(input));
+}
+
+void selector_links::run_along(messages::service_input input) {
   self_->send(local_, std::move(input));
   self_->send(local_, messages::lifecycle_step::activate);
+}
+
+void selector_links::rest() {
+  self_->send(local_, messages::lifecycle_step::deactivate);
 }
 
 void selector_links::announce_source(bool remote) {

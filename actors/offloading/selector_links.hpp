@@ -35,6 +35,8 @@ public:
   void use(const messages::service_result& result) override;
   void go_remote() override;
   void go_local(messages::service_input input) override;
+  void run_along(messages::service_input input) override;
+  void rest() override;
   void announce_source(bool remote) override;
   void report_first_data(const messages::session_id& session) override;
   void report(messages::qos_violation violation) override;

@@ -72,7 +72,8 @@ public:
   }
 
   service_client spawn_client(const client_place& where) const override {
-    return {spawn_chain_stage(where, with_scene)};
+    return {spawn_chain_stage(where, with_scene,
+                              options.warm_standby > duration{0})};
   }
 };
 

@@ -62,7 +62,8 @@ public:
   }
 
   service_client spawn_client(const client_place& where) const override {
-    return {spawn_chain_stage(where, with_tracks)};
+    return {spawn_chain_stage(where, with_tracks,
+                              options.warm_standby > duration{0})};
   }
 };
 

@@ -48,6 +48,10 @@ public:
   double cycles_on_board(const std::string& service) const {
     return may("services." + service + ".cycles.on_board").value_or(0);
   }
+  /// @returns how many were computed there besides, and not used.
+  double cycles_along(const std::string& service) const {
+    return may("services." + service + ".warm_standby.cycles").value_or(0);
+  }
   /// @returns how many were computed by providers, and used.
   double cycles_offloaded(const std::string& service) const {
     return may("services." + service + ".cycles.offloaded").value_or(0);
@@ -133,7 +137,9 @@ std::optional<double> on_board_percent(const summary_figures& run,
     return std::nullopt;
   double busy_s = 0;
   for (const auto& service : by.services)
-    busy_s += run.cycles_on_board(service.name) * service.local_s;
+    busy_s +=
+        (run.cycles_on_board(service.name) + run.cycles_along(service.name))
+        * service.local_s;
   return percent * busy_s / driven_s;
 }
 

@@ -72,6 +72,7 @@ struct work_record {
   service_name service;
   std::uint64_t on_board = 0; ///< Results of its own function that it used.
   std::uint64_t inputs = 0;   ///< That it sent to providers.
+  std::uint64_t along = 0; ///< Results of its own function that it did not use.
 };
 
 /// The `because` of an episode that the other side ended: the record of that

@@ -194,6 +194,9 @@ struct service_input {
   bool standby = false; ///< Else a result comes in every period.
   /// Its way to the provider. Does not travel: whoever carries it fills it in.
   transit up{};
+  /// A cycle begins with it besides those of the grid. Does not travel: it is
+  /// for the vehicle's own function.
+  bool at_once = false;
 };
 
 void visit_fields(auto& v, service_input& x) {

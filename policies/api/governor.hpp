@@ -28,6 +28,9 @@ public:
   /// As `policy::needs_scene`.
   virtual bool needs_scene() const { return false; }
 
+  /// As `policy::foresees_home`.
+  virtual bool foresees_home(const local_context&) const { return false; }
+
   /// Lists the options once (base/options/option_visitor.hpp).
   virtual void visit_options(option_visitor&) {}
 

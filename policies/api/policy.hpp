@@ -78,6 +78,11 @@ public:
   /// together: `local_context::chain`.
   virtual bool needs_chain() const { return false; }
 
+  /// In the vehicle: for a service that runs at a provider.
+  /// @returns whether it may come home soon: where the way leads, or for what
+  /// this policy would decide.
+  virtual bool foresees_home(const Context&) const { return false; }
+
   /// @returns what it has learned, as text for `restore`; empty for nothing.
   virtual std::string snapshot() const { return {}; }
   /// Takes up what another one of this kind and options has learned.

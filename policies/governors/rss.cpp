@@ -22,6 +22,9 @@ public:
                         const local_decision& wanted) override;
   double epoch_s() const override { return epoch_s_; }
   bool needs_scene() const override { return true; }
+  bool foresees_home(const local_context& context) const override {
+    return context.safe_response && !leaves(context, enter_margin_);
+  }
   void visit_options(option_visitor& s) override;
   std::string_view name() const override { return "rss"; }
   std::unique_ptr<governor> clone() const override {
@@ -29,6 +32,13 @@ public:
   }
 
 private:
+  /// @returns whether the scene leaves so much more than the worst response.
+  static bool leaves(const local_context& context, duration margin) {
+    const auto worst = context.needs.worst_response;
+    return worst < duration::max() - margin
+           && *context.safe_response >= worst + margin;
+  }
+
   duration enter_margin_ = 300ms;
   duration leave_margin_ = 100ms;
   double epoch_s_ = 0.05;
@@ -38,15 +48,11 @@ local_decision rss_governor::govern(const local_context& context,
                                     const local_decision& wanted) {
   if (!context.safe_response || std::holds_alternative<come_home>(wanted.what))
     return wanted;
-  const auto safe = *context.safe_response;
-  const auto worst = context.needs.worst_response;
-  const auto leaves = [&](duration margin) {
-    return worst < duration::max() - margin && safe >= worst + margin;
-  };
-  if (leaves(enter_margin_))
+  if (leaves(context, enter_margin_))
     return wanted;
-  const reason why{not_safe, to_seconds(safe), to_seconds(worst), "s"};
-  if (context.current && !leaves(leave_margin_))
+  const reason why{not_safe, to_seconds(*context.safe_response),
+                   to_seconds(context.needs.worst_response), "s"};
+  if (context.current && !leaves(context, leave_margin_))
     return {come_home{}, why};
   const auto* there = std::get_if<run_at>(&wanted.what);
   // No decision is made while it moves, so there must be time for that.

@@ -26,6 +26,11 @@ public:
                    const provider_view& provider) const override {
     return near_.objection(context, provider);
   }
+  /// Where the way leaves it soon, the provider will end it.
+  bool foresees_home(const local_context& context) const override {
+    const auto* here = where_it_runs(context);
+    return here && !objection(context, *here).empty();
+  }
   void visit_options(option_visitor& s) override { near_.visit_options(s); }
   std::string_view name() const override { return "location"; }
   std::unique_ptr<local_policy> clone() const override {

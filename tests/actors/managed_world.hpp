@@ -53,14 +53,19 @@ struct managed_world : virtual_world {
   probe<messages::recorder_actor> recorder = listen<messages::recorder_actor>();
   probe<messages::provider_manager_actor> there =
       listen<messages::provider_manager_actor>();
-  messages::requester_manager_actor manager = spawn();
+  messages::requester_manager_actor manager;
 
-  managed_world() { settle(); }
+  explicit managed_world(duration warm_standby = {})
+      : manager{spawn(warm_standby)} {
+    settle();
+  }
 
-  messages::requester_manager_actor spawn() {
+  messages::requester_manager_actor spawn(duration warm_standby) {
+    auto options = echo_options();
+    options.warm_standby = warm_standby;
     actors::requester_manager_setup setup;
     setup.station = 101;
-    setup.service = {"echo", echo_options(), service};
+    setup.service = {"echo", options, service};
     setup.local.session = {0, 101, "echo", 0};
     setup.local.function = service->make_function();
     setup.local.period = 50ms;

@@ -381,3 +381,66 @@ TEST_CASE_FIXTURE(managed_world, "every received result is recorded, with the "
   CHECK(records[2].interarrival == 30ms);
   CHECK(!records[2].used);
 }
+
+namespace {
+
+struct warm_manager : managed_world {
+  warm_manager() : managed_world{2s} {}
+};
+
+} // namespace
+
+TEST_CASE_FIXTURE(warm_manager, "an own function that runs along has a result "
+                                "in the instant in which the provider ends") {
+  go_remote();
+  client->clear();
+  for (std::uint64_t k = 2; k < 6; ++k) {
+    run_for(50ms);
+    feed(k);
+    result(k);
+  }
+  CHECK(results(false) == 0); // nothing of it is used before
+  run_for(10ms);
+  client->clear();
+  end();
+  REQUIRE(client->entries().size() == 2);
+  CHECK(client->entries()[0].what.type_at(0) == caf::type_id_v<source_change>);
+  REQUIRE(results(false) == 1);
+  CHECK(client->all<service_result>().front().what.as<echo>()->number == 5);
+  for (const auto& e : client->entries())
+    CHECK(e.at == now());
+  run_for(50ms);
+  CHECK(results(false) >= 2); // and it goes on
+}
+
+TEST_CASE_FIXTURE(warm_manager, "after its time the own function rests, and "
+                                "runs along again when a change home is "
+                                "foreseen") {
+  go_remote();
+  std::uint64_t k = 2;
+  const auto drive = [&](duration d) {
+    for (const auto end = now() + d; now() < end; ++k) {
+      run_for(50ms);
+      feed(k);
+      result(k);
+    }
+  };
+  const auto along = [&] {
+    std::uint64_t sum = 0;
+    for (const auto& x : recorder->all<record>())
+      if (const auto* work = std::get_if<work_record>(&x))
+        sum += work->along;
+    return sum;
+  };
+  drive(4s);
+  const auto after_change = along();
+  CHECK(after_change >= 38); // 2 s of 50 ms
+  CHECK(after_change <= 42);
+  drive(2s);
+  CHECK(along() == after_change);
+  tell(manager, home_is_near_atom_v);
+  drive(4s);
+  CHECK(along() >= after_change + 38);
+  CHECK(along() <= after_change + 42);
+  CHECK(source() == true);
+}

@@ -135,6 +135,22 @@ TEST_CASE_FIXTURE(cycle_world, "a cycle that stands by runs once for each "
   CHECK(results.size() == 3);
 }
 
+TEST_CASE_FIXTURE(cycle_world, "an input that says so begins a cycle at once, "
+                               "and the grid goes on") {
+  feed(1);
+  activate(); // on its grid at 20 ms, 70 ms, ...
+  run_for(30ms);
+  results.clear();
+  cycle.on_input({.session = {1, 101, "echo", 7},
+                  .at = now,
+                  .what = payload::of(echo{2}),
+                  .at_once = true},
+                 now);
+  run_for(70ms);
+  CHECK(starts() == std::vector<duration>{30ms, 70ms});
+  CHECK(results[0].second.cycle < results[1].second.cycle);
+}
+
 TEST_CASE_FIXTURE(cycle_world, "numbers of cycles rise, and follow the grid "
                                "when a period was not used") {
   feed(1);

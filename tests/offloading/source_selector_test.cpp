@@ -89,6 +89,11 @@ struct diary final : offloading::selector_port {
     write(x.in_use.type().empty() ? "own function plans anew"
                                   : "own function plans on");
   }
+  void run_along(service_input x) override {
+    CHECK(x.standby);
+    write("own function runs along");
+  }
+  void rest() override { write("own function rests again"); }
   void announce_source(bool remote) override {
     write(remote ? "source: remote" : "source: local");
   }

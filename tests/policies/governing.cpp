@@ -318,6 +318,20 @@ TEST_CASE_FIXTURE(roadside, "nobody is asked while the scene leaves less time "
   CHECK(comes_home(ask(*lodm)));
 }
 
+TEST_CASE_FIXTURE(roadside, "between the margins a change home is foreseen") {
+  const auto lodm = always_with("rss");
+  add(1);
+  runs_at(1);
+  seen.needs.worst_response = 600ms;
+  CHECK(!lodm->foresees_home(seen));
+  seen.safe_response = 900ms;
+  CHECK(!lodm->foresees_home(seen));
+  seen.safe_response = 899ms;
+  CHECK(lodm->foresees_home(seen));
+  CHECK(!comes_home(ask(*lodm)));
+  CHECK(!always_with("hysteresis")->foresees_home(seen));
+}
+
 TEST_CASE_FIXTURE(roadside,
                   "what runs at one provider goes to another one only "
                   "with the margin of who leaves home") {

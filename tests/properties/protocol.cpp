@@ -207,6 +207,22 @@ TEST_CASE_TEMPLATE("what is computed once for each input is offloaded like "
   }
 }
 
+TEST_CASE_TEMPLATE("a vehicle whose own functions run along keeps every "
+                   "promise, also when its provider crashes",
+                   World, actor_world, library_world) {
+  int episodes = 0;
+  dice random{2077};
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    auto of = seed % 2 == 0 ? warm(with_two(20ms)) : warm(per_input());
+    const auto crash = seed % 3 == 0
+                           ? std::optional{from_seconds(random.between(5, 60))}
+                           : std::nullopt;
+    episodes +=
+        live<World>(seed, {0.1, 0.2, 0.2, 50ms}, 2, crash, of).remote_episodes;
+  }
+  CHECK(episodes > 60);
+}
+
 TEST_CASE_TEMPLATE("whose scene is not safe under the response time of a "
                    "provider has its services at home a moment later",
                    World, actor_world, library_world) {

@@ -83,6 +83,16 @@ inline conduct within_its_scene() {
   return of;
 }
 
+/// The vehicle's own functions run along for two seconds round a change.
+inline conduct warm(conduct of = {}) {
+  of.service = [make = of.service](const messages::service_name& name) {
+    auto made = make(name);
+    made.options.warm_standby = 2s;
+    return made;
+  };
+  return of;
+}
+
 /// Its services are computed once for each input.
 inline conduct per_input(conduct of = {}) {
   of.service = [](const messages::service_name& name) {

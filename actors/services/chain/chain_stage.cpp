@@ -13,19 +13,32 @@ namespace sofof::actors {
 
 namespace {
 
+struct stage_setup {
+  messages::recorder_actor recorder;
+  station_id station = 0;
+  std::uint32_t place = 0;
+  onward make;
+  bool is_warm = false;
+};
+
 struct chain_stage_state {
   static inline const char* name = "chain_stage";
 
   messages::chain_stage_actor::pointer self = nullptr;
-  messages::recorder_actor recorder;
-  station_id station = 0;
-  onward make;
+  stage_setup setup;
   messages::requester_manager_actor service; // whose client it is
   messages::input_actor next;
   messages::payload newest; // input
+  bool at_once = false;     // what the next result becomes begins a cycle
+
+  // What its function had ready is the first of its results now.
+  void on_source(const messages::source_change& change) {
+    at_once = at_once || (setup.is_warm && !change.remote);
+  }
 
   void on_input(const messages::service_input& input) {
     newest = input.what;
+    at_once = at_once || input.at_once;
     if (service)
       self->send(service, input);
   }
@@ -33,30 +46,30 @@ struct chain_stage_state {
   void on_result(const messages::service_result& result) {
     if (!next || newest.empty())
       return;
-    auto what = make(newest, result);
+    auto what = setup.make(newest, result);
     if (what.empty())
       return;
     const auto t = now(self);
-    send_record(self, recorder,
-                messages::stage_record{station, result.session.service,
+    send_record(self, setup.recorder,
+                messages::stage_record{setup.station, result.session.service,
                                        result.session.provider, t,
                                        result.timing});
-    self->send(next, messages::service_input{{}, t, std::move(what)});
+    messages::service_input input{{}, t, std::move(what)};
+    input.at_once = std::exchange(at_once, false);
+    self->send(next, std::move(input));
   }
 };
 
 messages::chain_stage_actor::behavior_type chain_stage(
     messages::chain_stage_actor::stateful_pointer<chain_stage_state> self,
-    const messages::vehicle_actor& vehicle, std::uint32_t place,
-    messages::recorder_actor recorder, station_id station, onward make) {
+    const messages::vehicle_actor& vehicle, stage_setup setup) {
   self->state.self = self;
-  self->state.recorder = std::move(recorder);
-  self->state.station = station;
-  self->state.make = std::move(make);
-  self->send(vehicle, place, messages::chain_stage_actor{self});
+  self->state.setup = std::move(setup);
+  self->send(vehicle, self->state.setup.place,
+             messages::chain_stage_actor{self});
   return {
       [self](const messages::service_result& x) { self->state.on_result(x); },
-      [](const messages::source_change&) {},
+      [self](const messages::source_change& x) { self->state.on_source(x); },
       [self](const messages::requester_manager_actor& service) {
         self->state.service = service;
       },
@@ -67,10 +80,11 @@ messages::chain_stage_actor::behavior_type chain_stage(
 
 } // namespace
 
-messages::client_actor spawn_chain_stage(const client_place& where,
-                                         onward make) {
-  return where.system.spawn(chain_stage, where.vehicle, where.place,
-                            where.recorder, where.station, std::move(make));
+messages::client_actor spawn_chain_stage(const client_place& where, onward make,
+                                         bool is_warm) {
+  return where.system.spawn(chain_stage, where.vehicle,
+                            stage_setup{where.recorder, where.station,
+                                        where.place, std::move(make), is_warm});
 }
 
 } // namespace sofof::actors

@@ -16,7 +16,10 @@ using onward = std::function<messages::payload(
 /// The client of a service of a chain. It asks that service with each input of
 /// the stage before, and the next one with each of its results, and tells the
 /// vehicle its place in the chain.
-messages::client_actor spawn_chain_stage(const client_place& where,
-                                         onward make);
+/// @param is_warm  Its own function runs along before it comes home: the first
+///                 result then begins a cycle of the functions after it at
+///                 once.
+messages::client_actor spawn_chain_stage(const client_place& where, onward make,
+                                         bool is_warm);
 
 } // namespace sofof::actors

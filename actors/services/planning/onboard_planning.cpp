@@ -28,8 +28,10 @@ public:
       return {};
     auto from = planners::made_possible(request->from);
     const auto in_use = input.in_use.as<world::trajectory>();
-    if (std::exchange(drives_by_another_, false))
+    // Who stands by begins on the plan in use, and is not driven by.
+    if (drives_by_another_ || input.standby)
       cycle_->forget_plan();
+    drives_by_another_ = input.standby;
     const auto& own = cycle_->plan();
     if (in_use && in_use->is_sound()
         && (own.empty() || in_use->start > own.start))
