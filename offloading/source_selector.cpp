@@ -163,10 +163,13 @@ void source_selector::on_result(const messages::service_result& result,
   pass(now);
   assert(is_consistent());
   if (!result.session.is_remote()) {
+    ++work_.computed;
+    work_.computing += result.timing.computing;
     if (!is_remote())
       use(result, now);
     return;
   }
+  ++work_.received;
   auto* x = find(result.session);
   if (!x)
     return;
@@ -386,10 +389,12 @@ void source_selector::use(const messages::service_result& result,
 }
 
 void source_selector::record_work() {
-  if (work_.on_board == 0 && work_.inputs == 0)
-    return;
-  port_.record(messages::work_record{work_});
-  work_.on_board = work_.inputs = 0;
+  work_.at = now_;
+  if (!work_.is_empty())
+    port_.record(messages::work_record{work_});
+  const auto since = work_.at;
+  work_ = {setup_.station, setup_.service.name};
+  work_.since = since;
 }
 
 // -- from one source to another -----------------------------------------------
@@ -400,6 +405,7 @@ void source_selector::begin(source& x, time_point now) {
   x.in_use = true;
   trace_.add(step::first_data, x.session, now);
   if (!was_remote) {
+    record_work();
     port_.go_remote();
     watch(x.session, now);
     trace_.add(step::source, x.session, now);
@@ -436,6 +442,7 @@ void source_selector::on_end(const messages::service_end& end, time_point now) {
     port_.watch_end(end);
     if (end.reason == messages::end_reason::implausible)
       newest_.in_use = {}; // the own function does not go on from that
+    record_work();
     port_.go_local(newest_);
     trace_.add(step::source,
                messages::session_id{0, setup_.station, setup_.service.name, 0},

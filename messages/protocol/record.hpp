@@ -72,6 +72,19 @@ struct work_record {
   service_name service;
   std::uint64_t on_board = 0; ///< Results of its own function that it used.
   std::uint64_t inputs = 0;   ///< That it sent to providers.
+  // What that took, and what results took that were not used:
+  std::uint64_t computed = 0;    ///< Results of its own function,
+  duration computing{};          ///< and for how long it computed them.
+  std::uint64_t received = 0;    ///< Results of providers.
+  std::uint64_t octets_up = 0;   ///< On the air, of these inputs
+  std::uint64_t octets_down = 0; ///< and results; 0 without actors.
+  /// From the record before, or the begin, to this one. A change of the source
+  /// is between two records.
+  time_point since = time_point::min(), at{};
+
+  bool is_empty() const {
+    return on_board == 0 && inputs == 0 && computed == 0 && received == 0;
+  }
 };
 
 /// The `because` of an episode that the other side ended: the record of that
