@@ -8,8 +8,8 @@ namespace sofof::recording {
 
 namespace {
 
-constexpr int places_of_nj = 9;
-constexpr int places_of_way = 3;
+constexpr int csv_places_of_nj = 9;
+constexpr int csv_places_of_way = 3;
 
 struct energy_line {
   const energy_row& x;
@@ -18,7 +18,7 @@ struct energy_line {
 };
 
 constexpr decimal exact_joules(std::int64_t nj) {
-  return {nj, places_of_nj};
+  return {nj, csv_places_of_nj};
 }
 
 std::string_view place_name(const std::string& place) {
@@ -37,11 +37,11 @@ constexpr csv_column<energy_line> of_energy[]{
     {"place", [](const auto& r) { return place_name(r.x.place); }},
     {"driven_s", [](const auto& r) { return seconds(r.x.driven); }},
     {"distance_m",
-     [](const auto& r) { return rounded(r.x.distance_m, places_of_way); }},
+     [](const auto& r) { return rounded(r.x.distance_m, csv_places_of_way); }},
     {"own_results", [](const auto& r) { return r.x.use.computed; }},
     {"computing_s", [](const auto& r) { return seconds(r.x.use.computing); }},
     {"resting_s",
-     [](const auto& r) { return rounded(r.x.resting_s, places_of_nj); }},
+     [](const auto& r) { return rounded(r.x.resting_s, csv_places_of_nj); }},
     {"octets_up", [](const auto& r) { return r.x.use.octets_up; }},
     {"octets_down", [](const auto& r) { return r.x.use.octets_down; }},
     {"results", [](const auto& r) { return r.x.use.results; }},

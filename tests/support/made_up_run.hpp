@@ -32,7 +32,7 @@ inline recording::run_info run() {
   info.services = {planning, "environment"};
   info.start = start;
   info.energy.costs = {{{101, planning}, {0.5, 0.25, 0.125}},
-                {{102, planning}, {0.25, 0.25, 0.125}}};
+                       {{102, planning}, {0.25, 0.25, 0.125}}};
   return info;
 }
 
