@@ -33,6 +33,21 @@ TEST_CASE("what was told of a time is shared by how long each split lasted") {
   CHECK(before.computing + after.computing == 90ms);
 }
 
+TEST_CASE("of what thirds share none gets lost by rounding") {
+  split_ledger x{run_with_chain()};
+  x.add(switched(running(101, 1, "look"), true, 1'333'333'333ns));
+  x.add(switched(running(101, 1, "plan"), true, 1'666'666'667ns));
+  x.add(work(101, "plan", 1s, 2s, 1, 100));
+  std::uint64_t octets = 0, results = 0;
+  for (const auto& [where, use] : x.uses().at({101, 0})) {
+    octets += use.services[1].octets_up;
+    results += use.services[1].computed;
+  }
+  CHECK(x.uses().at({101, 0}).size() == 3);
+  CHECK(octets == 100);
+  CHECK(results == 1);
+}
+
 TEST_CASE("time and way are those that were driven in a split") {
   split_ledger x{run_with_chain()};
   drive_on(x, 101);
