@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -46,6 +47,13 @@ std::vector<std::string> splits_in(const recorded_run& run) {
   return all;
 }
 
+bool is_offloaded(const recorded_run& run) {
+  return run.figures && std::ranges::any_of(*run.figures, [](const auto& x) {
+           return x.first.starts_with(splits_prefix)
+                  && x.first.ends_with(".server_j") && x.second > 0;
+         });
+}
+
 table splits_of(const recorded_run& run) {
   table all;
   all.columns = {"chain", "split"};
@@ -76,7 +84,7 @@ section energy_section(std::span<const recorded_run> runs) {
   section all{.title = "Energy of both ends", .blocks = {}};
   for (const auto& run : runs) {
     auto one = splits_of(run);
-    if (run.figure("energy.both_ends.server_j").value_or(0) <= 0)
+    if (!is_offloaded(run))
       continue;
     if (runs.size() > 1)
       one.title = run.label;
