@@ -26,7 +26,8 @@ struct provider_compute {
 
   duration more_computing{}; ///< On top of each draw; >= 0.
 
-  double worker_w = 0; ///< What a busy worker takes beyond an idle one, W.
+  double worker_w = 0;      ///< What a busy worker takes beyond an idle one, W,
+  double worker_idle_w = 0; ///< and what that one takes.
 
   /// @param draws   Of one vehicle at this provider, see `result_draws`.
   /// @param cycle   The number of the result.

@@ -91,6 +91,7 @@ void source_selector::come_home(const messages::service_end& end,
   assert(!is_remote());
   trace_.add(step::unwatched, end.session, now);
   port_.watch_end(end);
+  record_work();
   std::optional<messages::service_result> at_once;
   if (end.reason == messages::end_reason::implausible) {
     newest_.in_use = {}; // the own function does not go on from that

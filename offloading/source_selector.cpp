@@ -166,12 +166,15 @@ void source_selector::on_result(const messages::service_result& result,
   pass(now);
   assert(is_consistent());
   if (!result.session.is_remote()) {
+    ++work_.computed;
+    work_.computing += result.timing.computing;
     if (is_remote())
       take_own(result, now);
     else if (options().per_input || result.created >= believed_from_)
       use(result, now);
     return;
   }
+  ++work_.received;
   auto* x = find(result.session);
   if (!x)
     return;
@@ -396,10 +399,12 @@ void source_selector::use(const messages::service_result& result,
 }
 
 void source_selector::record_work() {
-  if (work_.on_board == 0 && work_.inputs == 0 && work_.along == 0)
-    return;
-  port_.record(messages::work_record{work_});
-  work_.on_board = work_.inputs = work_.along = 0;
+  work_.at = now_;
+  if (!work_.is_empty())
+    port_.record(messages::work_record{work_});
+  const auto since = work_.at;
+  work_ = {setup_.station, setup_.service.name};
+  work_.since = since;
 }
 
 // -- from one source to another -----------------------------------------------
@@ -410,6 +415,7 @@ void source_selector::begin(source& x, time_point now) {
   x.in_use = true;
   trace_.add(step::first_data, x.session, now);
   if (!was_remote) {
+    record_work();
     port_.go_remote();
     warm_.begin(now);
     watch(x.session, now);

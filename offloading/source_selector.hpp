@@ -113,7 +113,7 @@ public:
   void on_end(const messages::service_end& end, time_point now);
 
   /// Records what has been done since it was recorded last: for the end, since
-  /// inputs cause it once a second.
+  /// inputs cause it once a second, as does a change of the source.
   void record_work();
 
   /// The time that `wake_at` was given with this number has come.

@@ -1,11 +1,14 @@
 // What services took out of batteries, and at providers.
 #include "recording/figures.hpp"
 
+#include <functional>
+
 namespace sofof::recording {
 
 namespace {
 
 constexpr int places_of_energy = 6;
+constexpr int places_of_nj = 9;
 constexpr int places_of_share_saved = 6;
 constexpr double percent_of_share = 100;
 
@@ -38,6 +41,27 @@ std::optional<double> energy_per_km(const whole_run& x) {
     return std::nullopt;
   const auto energy = x.of.work().energy();
   return if_costed(energy, energy.j() * m_per_km / distance_m);
+}
+
+std::optional<double> if_known(const whole_run& x, double value) {
+  return x.of.energy().vehicles > 0 ? std::optional{value} : std::nullopt;
+}
+
+/// A part of the energy of both ends, or a sum of some.
+template <auto Part>
+std::optional<double> total_of(const whole_run& x) {
+  return if_known(x, joules(std::invoke(Part, x.of.energy().all.spent)));
+}
+template <auto Part>
+constexpr auto total = [](const auto& x) { return total_of<Part>(x); };
+
+/// By all splits of services that work on each other's results.
+std::optional<double> saved_by_chain(const whole_run& x) {
+  std::optional<double> saved_j;
+  for (const auto& [which, sum] : x.of.energy().splits)
+    if (which.second.size() > 1)
+      saved_j = saved_j.value_or(0) + joules(sum.saved_nj());
+  return saved_j;
 }
 
 constexpr service_figure of_service_cost[]{
@@ -113,6 +137,58 @@ constexpr run_figure of_run_cost[]{
      [](const auto& x) { return at_servers(x); },
      {report_table::safety, 155, "energy of the services at providers, J", 1},
      {console_block::energy, 40, "at the providers", 1, "J"}},
+    {"energy.both_ends.j", places_of_nj, total<&exact_energy::nj>},
+    {"energy.both_ends.vehicle_j", places_of_nj,
+     total<&exact_energy::vehicle_nj>},
+    {"energy.both_ends.radio_j", places_of_nj, total<&exact_energy::radio_nj>},
+    {"energy.both_ends.server_j", places_of_nj,
+     total<&exact_energy::server_nj>},
+    {"energy.both_ends.computing_j", places_of_nj,
+     total<&exact_energy::computing_nj>},
+    {"energy.both_ends.resting_j", places_of_nj,
+     total<&exact_energy::resting_nj>},
+    {"energy.both_ends.framework_j", places_of_nj,
+     total<&exact_energy::framework_nj>},
+    {"energy.both_ends.sending_j", places_of_nj,
+     total<&exact_energy::sending_nj>},
+    {"energy.both_ends.receiving_j", places_of_nj,
+     total<&exact_energy::receiving_nj>},
+    {"energy.both_ends.server_busy_j", places_of_nj,
+     total<&exact_energy::server_busy_nj>},
+    {"energy.both_ends.server_idle_j", places_of_nj,
+     total<&exact_energy::server_idle_nj>},
+    {"energy.both_ends.server_unused_j", places_of_energy,
+     [](const auto& x) { return if_known(x, x.of.energy().unused_server_j); }},
+    {"energy.both_ends.home_j", places_of_nj,
+     [](const auto& x) {
+       return if_known(x, joules(x.of.energy().all.home_nj));
+     }},
+    {"energy.both_ends.saved_j", places_of_nj,
+     [](const auto& x) {
+       return if_known(x, joules(x.of.energy().all.saved_nj()));
+     }},
+    {"energy.both_ends.saved_per_drive_j", places_of_energy,
+     [](const auto& x) {
+       return if_known(x, joules(x.of.energy().all.saved_nj())
+                              / static_cast<double>(x.of.energy().vehicles));
+     }},
+    {"energy.both_ends.saved_per_km_j",
+     places_of_energy,
+     [](const auto& x) {
+       return x.of.energy().vehicles > 0 ? x.of.energy().all.saved_j_per_km()
+                                         : std::nullopt;
+     },
+     {report_table::safety, 156, "energy saved at both ends, J/km", 1}},
+    {"energy.both_ends.break_even_w",
+     places_of_energy,
+     [](const auto& x) { return x.of.energy().all.break_even_w(); },
+     {report_table::safety, 157,
+      "power of vehicles' computers from which that pays, W", 2}},
+    {"energy.both_ends.chain_saved_j",
+     places_of_nj,
+     [](const auto& x) { return saved_by_chain(x); },
+     {},
+     {console_block::energy, 50, "saved at both ends", 1, "J"}},
 };
 
 } // namespace

@@ -77,13 +77,19 @@ bool safety_metrics::ok() const {
 
 metrics::metrics(const run_info& run)
     : start_{run.start}, headline_{run.headline_kind},
-      names_{run.provider_names}, work_{run.costs}, obstacles_{run.obstacles} {
+      names_{run.provider_names}, work_{run.energy.costs},
+      energy_terms_{run.energy}, splits_{run}, obstacles_{run.obstacles} {
   for (const auto& name : run.services)
     of(messages::service_name{name});
 }
 
 void metrics::on_record(const messages::record& x) {
-  std::visit([this](const auto& which) { add(which); }, x);
+  std::visit(
+      [this](const auto& which) {
+        add(which);
+        splits_.add(which);
+      },
+      x);
 }
 
 void metrics::add(const messages::event_record& x) {
@@ -324,6 +330,8 @@ void metrics::finish(time_point end) {
     service.remote_s[who.second] += to_seconds(end - episode.remote_since);
   }
   open_.clear();
+  energy_ = energy_of(splits_, energy_terms_, load_, end - start_);
+  energy_.all.distance_m = together_.ride.distance_m;
 }
 
 const service_metrics& metrics::headline() const {

@@ -5,9 +5,11 @@
 #include "base/statistics.hpp"
 #include "messages/protocol/record.hpp"
 #include "recording/cycle_ledger.hpp"
+#include "recording/energy_table.hpp"
 #include "recording/load_table.hpp"
 #include "recording/response_table.hpp"
 #include "recording/run_info.hpp"
+#include "recording/split_ledger.hpp"
 
 #include <array>
 #include <chrono>
@@ -224,6 +226,8 @@ public:
   cycle_figures cycles(station_id station) const {
     return work_.cycles(headline_, station);
   }
+  /// @returns the energy of both ends; nothing before the end.
+  const energy_table& energy() const { return energy_; }
   const traffic_metrics& traffic() const { return traffic_; }
   const switch_metrics& switches() const { return switches_; }
   const air_metrics& air() const { return air_; }
@@ -282,6 +286,9 @@ private:
   messages::service_name headline_;
   provider_names names_;
   cycle_ledger work_;
+  energy_terms energy_terms_;
+  split_ledger splits_;
+  energy_table energy_;
   std::uint32_t obstacles_;
   std::uint64_t offers_ = 0;
   std::vector<service_metrics> services_;

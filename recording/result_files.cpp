@@ -195,6 +195,8 @@ void result_files::finish(const metrics& all, const run_info& run,
   const auto& load = all.load();
   write_file(folder_ / "load.csv", load_csv(load, from_seconds(end.virtual_s)));
   write_file(folder_ / "octets.csv", octets_csv(load));
+  if (!run.energy.costs.empty())
+    write_file(folder_ / "energy.csv", to_csv(all.energy(), run.energy));
   write_timing(end, clock.timings);
   if (!clock.cpu_csv.empty())
     write_file(folder_ / "cpu.csv", clock.cpu_csv);

@@ -30,7 +30,8 @@ constexpr std::string_view files_of_a_run[] = {
     "margins.csv",       "load.csv",         "load.csv.tmp",
     "octets.csv",        "octets.csv.tmp",   "disturbed.csv",
     "disturbed.csv.tmp", "claims.csv",       "protocol_trace.csv",
-    "scene.csv",         "responses.csv"};
+    "scene.csv",         "responses.csv",    "energy.csv",
+    "energy.csv.tmp"};
 
 bool is_provider_map(std::string_view name) {
   if (!name.starts_with(provider_map_prefix))

@@ -4,6 +4,7 @@
 #include "base/ids.hpp"
 #include "base/time.hpp"
 #include "messages/etsi/its_time.hpp"
+#include "world/vehicle/energy_use.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -23,11 +24,23 @@ struct service_cost {
   double on_board_j = 0; ///< For each cycle on board,
   double input_j = 0;    ///< for each input that it sends,
   double result_j = 0;   ///< and for each result of a provider.
+  duration run_time{};   ///< Of a cycle there, on average,
+  duration period{};     ///< which is one in each.
 };
 
 /// By vehicle and service.
 using service_costs =
     std::map<std::pair<station_id, std::string>, service_cost>;
+
+/// What energy is reckoned from.
+struct energy_terms {
+  service_costs costs; ///< Of the vehicles that are driven here.
+  std::map<station_id, world::vehicle_power> vehicles; ///< The same ones.
+  std::map<std::string, world::server_power> servers;  ///< By provider.
+  /// Services by name, those that work on each other's results together, the
+  /// first one first; others alone.
+  std::vector<std::vector<std::string>> chains;
+};
 
 /// Providers by id; one that has started again has the name of its place.
 using provider_names = std::map<provider_id, std::string>;
@@ -64,7 +77,7 @@ struct run_info {
   std::vector<std::string> chain;
   /// The kind whose figures stand at the top level of the summary.
   std::string headline_kind = "trajectory_planning";
-  service_costs costs;  ///< Of the vehicles that are driven here.
+  energy_terms energy;
   bool cycles = true;   ///< Write cycles.csv.
   bool tracks = true;   ///< Write tracks.csv.
   bool margins = false; ///< Write margins.csv.

@@ -155,6 +155,34 @@ void responses(json_object& to, const response_table& table,
   }
 }
 
+/// What each split of each chain took and saved, all vehicles together.
+void splits(json_object& to, const energy_table& table, const run_info& run) {
+  constexpr int nj_places = 9, w_places = 6, m_places = 3;
+  if (table.splits.empty())
+    return;
+  auto all = to.object("splits");
+  for (std::size_t c = 0; c < run.energy.chains.size(); ++c) {
+    auto chain = all.object(run.energy.chains[c].back());
+    for (const auto& [which, x] : table.splits) {
+      if (which.first != c)
+        continue;
+      const auto energy = [](std::int64_t nj) {
+        return decimal{nj, nj_places};
+      };
+      auto of = chain.object(name_of(which.second));
+      of.member("driven_s", seconds(x.driven));
+      of.member("distance_m", rounded(x.distance_m, m_places));
+      of.member("vehicle_j", energy(x.spent.vehicle_nj()));
+      of.member("radio_j", energy(x.spent.radio_nj()));
+      of.member("server_j", energy(x.spent.server_nj()));
+      of.member("home_j", energy(x.home_nj));
+      of.member("saved_j", energy(x.saved_nj()));
+      of.member("saved_per_km_j", rounded(x.saved_j_per_km(), w_places));
+      of.member("break_even_w", rounded(x.break_even_w(), w_places));
+    }
+  }
+}
+
 /// The provider's view.
 void served(json_object& to, const service_in_run& x) {
   constexpr std::string_view path = "served.";
@@ -205,6 +233,7 @@ std::string summary_json(const metrics& m, const run_info& run,
       }
     }
     responses(top, m.responses(), run.chain);
+    splits(top, m.energy(), run);
     loads(top, m.load(), from_seconds(end.virtual_s));
     write(top, clock_figures(), whole);
   }

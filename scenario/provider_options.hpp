@@ -54,7 +54,8 @@ struct compute_options {
   std::optional<std::string> model; ///< Its channel profile: computing times.
   std::optional<std::int64_t> workers;
   std::optional<duration> more_computing;
-  std::optional<double> worker_w; ///< Of a busy one beyond an idle one, W.
+  std::optional<double> worker_w;      ///< Of a busy one beyond an idle one, W,
+  std::optional<double> worker_idle_w; ///< and of that one.
   /// Which of these the file says in [network], their former place: those are
   /// not for providers that have a network of their own.
   struct {

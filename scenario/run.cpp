@@ -12,6 +12,7 @@
 #include "recording/results_folder.hpp"
 #include "scenario/build.hpp"
 #include "scenario/decision_timer.hpp"
+#include "scenario/energy_terms.hpp"
 #include "scenario/placement.hpp"
 #include "scenario/runtime.hpp"
 #include "scenario/stall_watch.hpp"
@@ -41,13 +42,6 @@ constexpr double flush_every_real_s = 0.5;
 /// filled once, at the start.
 constexpr duration settling = 1s;
 
-/// What a service costs a vehicle with this computer.
-recording::service_cost cost_of(const world::cycle_options& cycle,
-                                const world::computer_options& computer) {
-  return {world::on_board_cost(computer, cycle).energy_j,
-          world::sending_cost(computer, cycle).energy_j, cycle.overhead_j};
-}
-
 /// @returns the name of the copy of a provider's own map in a results folder.
 std::string map_copy_of(std::size_t place) {
   return fmt::format("{}{}.toml", recording::provider_map_prefix, place + 1);
@@ -73,12 +67,9 @@ recording::run_info describe(const scenario_definition& s,
   if (const auto* planning = planning_service(s))
     info.headline_kind = planning->name();
   for (const auto& v : place_vehicles(s))
-    if (here.drives(v.station)) {
+    if (here.drives(v.station))
       ++info.vehicles;
-      for (const auto& type : s.services)
-        info.costs[{v.station, std::string{type->name()}}] =
-            cost_of(type->options.compute, s.fleets[v.fleet].compute);
-    }
+  info.energy = energy_terms_of(s, here);
   if (info.vehicles == 0)
     for (std::size_t k = 0; k < s.providers.size(); ++k)
       if (here.provides(k))

@@ -104,6 +104,9 @@ void compute_options::visit_options(option_visitor& s) {
             more_computing ? *more_computing : more_computing.emplace(), 0ns);
   if (s.has("worker_w", worker_w.has_value()))
     s.field("worker_w", worker_w ? *worker_w : worker_w.emplace(), {0, 1e4});
+  if (s.has("worker_idle_w", worker_idle_w.has_value()))
+    s.field("worker_idle_w",
+            worker_idle_w ? *worker_idle_w : worker_idle_w.emplace(), {0, 1e4});
 }
 
 compute_options compute_options::for_own_network() const {
@@ -121,6 +124,7 @@ void compute_options::complete(const std::string& profile) {
   workers = workers.value_or(measured.workers);
   more_computing = more_computing.value_or(measured.more_computing);
   worker_w = worker_w.value_or(recording::core_power{}.more_when_busy_w());
+  worker_idle_w = worker_idle_w.value_or(recording::core_power{}.idle_w);
 }
 
 channel::provider_compute compute_options::computers() const {
@@ -128,6 +132,7 @@ channel::provider_compute compute_options::computers() const {
   all.workers = workers.value();
   all.more_computing = more_computing.value();
   all.worker_w = worker_w.value();
+  all.worker_idle_w = worker_idle_w.value();
   return all;
 }
 

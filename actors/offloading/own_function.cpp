@@ -6,12 +6,15 @@
 
 namespace sofof::actors {
 
-offloading::cycle_setup
-own_function(const requester_actor_setup& vehicle,
-             const offloading::onboard_service& service) {
+offloading::cycle_setup own_function(const requester_actor_setup& vehicle,
+                                     const offloading::onboard_service& service,
+                                     std::function<time_point()> clock) {
   auto own = own_cycle(service, vehicle.station, vehicle.noise);
   if (!vehicle.virtual_time) {
-    own.finish = [](time_point start, std::uint64_t) { return start; };
+    own.finish = [clock = std::move(clock)](time_point start, std::uint64_t) {
+      const auto done = std::max(clock(), start);
+      return offloading::cycle_work{done, done - start};
+    };
     return own;
   }
   const auto noise = vehicle.noise.part(service.name.view());

@@ -5,15 +5,17 @@
 #include "offloading/requester.hpp"
 #include "offloading/service_cycle.hpp"
 
+#include <functional>
 #include <vector>
 
 namespace sofof::actors {
 
+/// @param clock  The time, where it is real.
 /// @returns the cycle of the vehicle's own function of a service. In virtual
 /// time it takes a drawn run time.
-offloading::cycle_setup
-own_function(const requester_actor_setup& vehicle,
-             const offloading::onboard_service& service);
+offloading::cycle_setup own_function(const requester_actor_setup& vehicle,
+                                     const offloading::onboard_service& service,
+                                     std::function<time_point()> clock);
 
 /// @returns what the rules of a vehicle's requester are made of.
 offloading::requester_setup

@@ -53,6 +53,7 @@ requester_manager_impl::behavior_type requester_manager(
   });
   return {
       [self](const messages::service_result& result) {
+        self->state.links->count(result);
         self->state.selector->on_result(result, now(self));
       },
       [self](const messages::service_input& input) {

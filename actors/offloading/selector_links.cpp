@@ -5,10 +5,12 @@
 #include "actors/runtime/cpu_accounts.hpp"
 #include "actors/runtime/record_on_air.hpp"
 #include "actors/runtime/time.hpp"
+#include "messages/v2x/octets_on_air.hpp"
 
 #include <caf/typed_event_based_actor.hpp>
 
 #include <utility>
+#include <variant>
 
 namespace sofof::actors {
 
@@ -42,12 +44,18 @@ void selector_links::add(const messages::session_id& session,
   managers_[session] = std::move(manager);
 }
 
+void selector_links::count(const messages::service_result& result) {
+  if (result.session.is_remote())
+    octets_down_ += octets_on_air(result);
+}
+
 void selector_links::feed_local(const messages::service_input& input) {
   self_->send(local_, input);
 }
 
 void selector_links::feed_remote(messages::service_input input) {
   record_on_air(self_, recorder_, input.what);
+  octets_up_ += octets_on_air(input);
   const auto& manager = managers_.at(input.session);
   self_->send(manager, std::move(input));
 }
@@ -110,6 +118,10 @@ void selector_links::watch_end(const messages::service_end& end) {
 }
 
 void selector_links::record(messages::record&& x) {
+  if (auto* work = std::get_if<messages::work_record>(&x)) {
+    work->octets_up = std::exchange(octets_up_, 0);
+    work->octets_down = std::exchange(octets_down_, 0);
+  }
   self_->send(recorder_, std::move(x));
 }
 

@@ -5,6 +5,7 @@
 #include "messages/type_ids.hpp"
 #include "offloading/source_selector.hpp"
 
+#include <cstdint>
 #include <map>
 #include <string>
 
@@ -29,6 +30,9 @@ public:
   void add(const messages::session_id& session,
            messages::provider_manager_actor manager);
   void forget(const messages::session_id& session) { managers_.erase(session); }
+
+  /// A result has come, of whatever source.
+  void count(const messages::service_result& result);
 
   void feed_local(const messages::service_input& input) override;
   void feed_remote(messages::service_input input) override;
@@ -61,6 +65,7 @@ private:
   messages::instance_actor local_;
   messages::watchdog_actor watchdog_;
   std::map<messages::session_id, messages::provider_manager_actor> managers_;
+  std::uint64_t octets_up_ = 0, octets_down_ = 0; // since work was recorded
 };
 
 } // namespace sofof::actors

@@ -2,9 +2,9 @@
 #include "actors/simulation/air.hpp"
 
 #include "actors/runtime/time.hpp"
-#include "actors/simulation/on_air.hpp"
 #include "base/geometry.hpp"
 #include "channel/link_direction.hpp"
+#include "messages/v2x/octets_on_air.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>

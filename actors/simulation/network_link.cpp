@@ -3,6 +3,7 @@
 
 #include "actors/runtime/time.hpp"
 #include "actors/simulation/on_air.hpp"
+#include "messages/v2x/octets_on_air.hpp"
 
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>

@@ -1,35 +1,16 @@
-// What a message takes on the air, what it is for, and how it arrives.
+// What a message on the air is for, and how it arrives.
 #pragma once
 
 #include "messages/etsi/cam.hpp"
 #include "messages/etsi/cpm_tr103562.hpp"
 #include "messages/etsi/mcm.hpp"
 #include "messages/protocol/its_pdu.hpp"
-#include "messages/protocol/octets.hpp"
 #include "messages/protocol/service.hpp"
-#include "messages/v2x/geonet.hpp"
 
 #include <concepts>
-#include <cstddef>
 #include <string_view>
 
 namespace sofof::actors {
-
-/// @returns an ITS message with what the layers below add to it.
-inline std::size_t octets_on_air(const messages::its_pdu& message) {
-  return message.octets.size() + messages::geonet_octets;
-}
-
-/// @returns anything else as our own protocol has it, and what the layers
-/// below add to an ITS message that is a part of it.
-template <class Message>
-std::size_t octets_on_air(const Message& message) {
-  auto octets = messages::octets_of(message);
-  if constexpr (requires { message.what.type(); })
-    if (message.what.template as<messages::its_pdu>())
-      octets += messages::geonet_octets;
-  return octets;
-}
 
 /// @returns the kind of an ITS message.
 inline std::string_view purpose_of(const messages::its_pdu& message) {

@@ -3,6 +3,7 @@
 
 #include "experiments/report/comparison.hpp"
 #include "experiments/report/crossing_section.hpp"
+#include "experiments/report/energy_section.hpp"
 #include "experiments/report/episode_table.hpp"
 #include "experiments/report/key_figures.hpp"
 #include "experiments/report/load_section.hpp"
@@ -130,6 +131,7 @@ std::vector<section> sections_of(runs_view runs) {
   all.push_back(drives(runs));
   all.push_back(figures(runs));
   add(load_section(runs));
+  add(energy_section(runs));
   add_results(all, runs);
   add(crossing_section(runs));
   add(over_time(runs));

@@ -73,6 +73,20 @@ struct work_record {
   std::uint64_t on_board = 0; ///< Results of its own function that it used.
   std::uint64_t inputs = 0;   ///< That it sent to providers.
   std::uint64_t along = 0; ///< Results of its own function that it did not use.
+  // What that took, and what results took that were not used:
+  std::uint64_t computed = 0;    ///< Results of its own function,
+  duration computing{};          ///< and for how long it computed them.
+  std::uint64_t received = 0;    ///< Results of providers.
+  std::uint64_t octets_up = 0;   ///< On the air, of these inputs
+  std::uint64_t octets_down = 0; ///< and results; 0 without actors.
+  /// From the record before, or the begin, to this one. A change of the source
+  /// is between two records.
+  time_point since = time_point::min(), at{};
+
+  bool is_empty() const {
+    return on_board == 0 && inputs == 0 && along == 0 && computed == 0
+           && received == 0;
+  }
 };
 
 /// The `because` of an episode that the other side ended: the record of that
@@ -192,7 +206,7 @@ struct response_record {
   station_id station = 0;
   time_point sensed_at;
   time_point control_at;
-  duration waited{}; ///< For a later look, if this one was lost on the way.
+  duration waited{}; ///< For a later look, if this one was skipped or lost.
   std::vector<part> parts; ///< By service, in the order of the chain.
   duration control{};      ///< From the plan to the control value.
 

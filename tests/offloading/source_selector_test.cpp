@@ -352,27 +352,57 @@ TEST_CASE_FIXTURE(selecting, "a standby is fed only when a cycle is not "
   }
 }
 
-TEST_CASE_FIXTURE(selecting, "own results that are used and inputs that are "
-                             "sent are recorded once a second, and at last") {
+TEST_CASE_FIXTURE(selecting, "what was done is recorded once a second, when "
+                             "the source changes, and at last") {
   for (int k = 0; k < 5; ++k)
     result(own, k * 50ms);
   session(a, 300ms);
   selector.on_input({own, at(400ms), of(2)}, at(400ms));
-  result(a, 450ms);
-  result(own, 460ms); // on its way when the source changed
   CHECK(port.work.empty());
-  selector.on_input({own, at(1s), of(3)}, at(1s));
+  result(a, 450ms);
   REQUIRE(port.work.size() == 1);
   CHECK(port.work[0].station == 101);
   CHECK(port.work[0].service == service_name{"numbers"});
   CHECK(port.work[0].on_board == 5);
   CHECK(port.work[0].inputs == 2);
-  selector.record_work();
+  CHECK(port.work[0].received == 1);
+  CHECK(port.work[0].at == at(450ms));
+  selector.on_input({own, at(1s), of(3)}, at(1s));
+  end(a, 1100ms);
   REQUIRE(port.work.size() == 2);
   CHECK(port.work[1].on_board == 0);
   CHECK(port.work[1].inputs == 1);
+  CHECK(port.work[1].since == at(1s)); // nothing happened until then
+  CHECK(port.work[1].at == at(1100ms));
+  result(own, 1200ms);
   selector.record_work();
-  CHECK(port.work.size() == 2);
+  REQUIRE(port.work.size() == 3);
+  CHECK(port.work[2].on_board == 1);
+  selector.record_work();
+  CHECK(port.work.size() == 3);
+}
+
+TEST_CASE_FIXTURE(selecting, "what the own function computes counts, whether "
+                             "it is used or not") {
+  const auto computed = [this](duration t) {
+    selector.on_result({.session = own,
+                        .cycle = ++cycle,
+                        .created = at(t),
+                        .what = of(1),
+                        .timing = {.input_at = at(t), .computing = 5ms}},
+                       at(t));
+  };
+  computed(50ms);
+  session(a, 100ms);
+  result(a, 200ms);
+  computed(210ms); // on its way when the source changed
+  selector.record_work();
+  REQUIRE(port.work.size() == 2);
+  CHECK(port.work[0].computed == 1);
+  CHECK(port.work[0].computing == 5ms);
+  CHECK(port.work[1].on_board == 0);
+  CHECK(port.work[1].computed == 1);
+  CHECK(port.work[1].computing == 5ms);
 }
 
 TEST_CASE("at each input it is told under which response time the scene is "

@@ -40,11 +40,11 @@ TEST_CASE("the same command twice gives the same bytes") {
   const auto a = at.drive("a", {"--duration", "300s"});
   const auto b = at.drive("b", {"--duration", "300s"});
   CHECK(names_in(a)
-        == std::set<std::string>{"config.toml", "cycles.csv",
-                                 "distributions.csv", "episodes.csv",
-                                 "events.jsonl", "load.csv", "map.toml",
-                                 "octets.csv", "disturbed.csv", "summary.json",
-                                 "timing.csv", "tracks.csv", "vehicles.csv"});
+        == std::set<std::string>{
+            "config.toml", "cycles.csv", "distributions.csv", "energy.csv",
+            "episodes.csv", "events.jsonl", "load.csv", "map.toml",
+            "octets.csv", "disturbed.csv", "summary.json", "timing.csv",
+            "tracks.csv", "vehicles.csv"});
   CHECK(names_in(b) == names_in(a));
   for (const auto& name : names_in(a))
     if (name != "timing.csv" && name != "summary.json") {

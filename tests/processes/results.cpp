@@ -59,8 +59,8 @@ double largest(const std::vector<row>& rows, const std::string& column) {
 } // namespace
 
 TEST_CASE("the files have the columns that are documented") {
-  for (const std::string file :
-       {"episodes.csv", "cycles.csv", "tracks.csv", "vehicles.csv"}) {
+  for (const std::string file : {"episodes.csv", "cycles.csv", "tracks.csv",
+                                 "vehicles.csv", "energy.csv"}) {
     CAPTURE(file);
     const auto columns = documented_columns(file);
     CHECK(columns.size() > 10);

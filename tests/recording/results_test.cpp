@@ -56,8 +56,9 @@ TEST_CASE("a run leaves all its files, and no temporary one") {
   CHECK(names_in(dir.path())
         == std::vector<std::string>{
             "config.toml", "cycles.csv", "distributions.csv", "disturbed.csv",
-            "episodes.csv", "events.jsonl", "load.csv", "octets.csv",
-            "summary.json", "timing.csv", "tracks.csv", "vehicles.csv"});
+            "energy.csv", "episodes.csv", "events.jsonl", "load.csv",
+            "octets.csv", "summary.json", "timing.csv", "tracks.csv",
+            "vehicles.csv"});
   CHECK(content_of(dir / "config.toml") == "seed = 7\n");
 }
 

@@ -137,6 +137,12 @@ TEST_CASE("a busy worker takes the power that its provider says") {
   CHECK(computers(example::text, 0, set).worker_w == 12);
 }
 
+TEST_CASE("a worker takes for being there what its provider says") {
+  CHECK(computers(example::text, 0, {}).worker_idle_w == doctest::Approx(0.74));
+  const std::vector<std::string> set{"compute.worker_idle_w=3"};
+  CHECK(computers(example::text, 0, set).worker_idle_w == 3);
+}
+
 TEST_CASE("what [network] said of workers was not for other networks") {
   const std::vector<std::string> set{"network.workers=16",
                                      "compute.more_computing=4ms"};

@@ -31,8 +31,8 @@ inline recording::run_info run() {
   info.provider_names = {{provider, "mec"}};
   info.services = {planning, "environment"};
   info.start = start;
-  info.costs = {{{101, planning}, {0.5, 0.25, 0.125}},
-                {{102, planning}, {0.25, 0.25, 0.125}}};
+  info.energy.costs = {{{101, planning}, {0.5, 0.25, 0.125}},
+                       {{102, planning}, {0.25, 0.25, 0.125}}};
   return info;
 }
 

@@ -52,5 +52,5 @@ TEST_CASE("computer and cycle list their options once, within their ranges") {
   computer_options{}.visit_options(options);
   cycle_options{}.visit_options(options);
   CHECK(options.refused.empty());
-  CHECK(options.names.size() == 9);
+  CHECK(options.names.size() == 11);
 }

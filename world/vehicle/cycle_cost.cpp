@@ -42,12 +42,20 @@ double demand_of(const cycle_options& cycle) {
                                / to_seconds(usual_run_time));
 }
 
+double computing_power_w(const computer_options& computer) {
+  const auto clock_hz = computer.clock_ghz * giga;
+  return computer.computing_w.value_or(computer.capacitance_js2 * clock_hz
+                                       * clock_hz * clock_hz);
+}
+
 cycle_cost on_board_cost(const computer_options& computer,
                          const cycle_options& cycle) {
   const auto clock_hz = computer.clock_ghz * giga;
   const auto cycles = to_seconds(cycle.run_time_mean) * usual_clock_ghz * giga;
-  return {cycles / clock_hz,
-          computer.capacitance_js2 * clock_hz * clock_hz * cycles};
+  const auto time_s = cycles / clock_hz;
+  return {time_s, computer.computing_w ? *computer.computing_w * time_s
+                                       : computer.capacitance_js2 * clock_hz
+                                             * clock_hz * cycles};
 }
 
 cycle_cost sending_cost(const computer_options& computer,

@@ -17,12 +17,25 @@ struct computer_options {
                                   ///< studies of offloading, not measured.
   double transmit_power_w = 0.2;  ///< p, 23 dBm.
   double uplink_mbps = 20;        ///< r, that it gets of the air.
+  /// What a busy core takes beyond one that is not, W; without: κ f³.
+  std::optional<double> computing_w{};
+  /// What a function that rests takes of what it would if it ran: 28.3 of
+  /// 116.1 % of a core. Source: Dehler & Buchholz 2025, table I, real vehicle.
+  double resting_share = 0.244;
+  /// What an octet that is received takes of one that is sent: 51.97 of 438.39
+  /// mW per Mbit/s. Source: Huang et al., MobiSys 2012, of an LTE telephone.
+  double receiving_share = 0.12;
 
   void visit_options(option_visitor& s) {
     s.field("clock_ghz", clock_ghz, {0.1, 100});
     s.field("capacitance_js2", capacitance_js2, {0, 1e-20});
     s.field("transmit_power_w", transmit_power_w, {0, 100});
     s.field("uplink_mbps", uplink_mbps, {0.001, 1e6});
+    if (s.has("computing_w", computing_w.has_value()))
+      s.field("computing_w", computing_w ? *computing_w : computing_w.emplace(),
+              {0, 1e4});
+    s.field("resting_share", resting_share, {0, 1});
+    s.field("receiving_share", receiving_share, {0, 1e3});
   }
 };
 
@@ -60,9 +73,14 @@ struct cycle_cost {
   double energy_j = 0;
 };
 
-/// Of a cycle on board: T = c / f and E = κ f² c, of c cycles of the clock.
-/// Source: Mao, Zhang & Letaief, JSAC 34(12) 2016; κ is that of public code
-/// for it (LODCO.m in hliangzhao/Edge-Computing-Codes).
+/// @returns what a busy core takes beyond one that is not, W: κ f³, unless the
+/// options say it.
+double computing_power_w(const computer_options& computer);
+
+/// Of a cycle on board: T = c / f and E = κ f² c, of c cycles of the clock, or
+/// T times the power that the options say. Source: Mao, Zhang & Letaief, JSAC
+/// 34(12) 2016; κ is that of public code for it (LODCO.m in
+/// hliangzhao/Edge-Computing-Codes).
 cycle_cost on_board_cost(const computer_options& computer,
                          const cycle_options& cycle);
 
