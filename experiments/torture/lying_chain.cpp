@@ -23,6 +23,7 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr double lied_about_m = 60; ///< Bodies within this of the vehicle.
+constexpr double same_body_m = 3;
 constexpr double to_left_m = 3, slower_by = 0.5;
 constexpr double added_m = 15, added_lead_m = 12;
 constexpr double farther_m = 12, farther_beside_m = 1.5, map_off_m = 8;
@@ -42,9 +43,24 @@ planners::track track_of(const world::perceived_object& x, std::uint32_t id,
   return made;
 }
 
-/// @param from  The middle of the vehicle's front, and its heading.
-void change(messages::object_list& told, const world::viewpoint& from,
+/// Leaves only bodies that were seen.
+void hide(messages::object_list& told,
+          std::span<const world::perceived_object> seen) {
+  for (std::size_t k = told.objects.size(); k-- > 0;)
+    if (std::ranges::none_of(seen, [&](const auto& x) {
+          return distance_m(x.centre, told.objects[k].centre) < same_body_m;
+        })) {
+      told.objects.erase(told.objects.begin() + static_cast<std::ptrdiff_t>(k));
+      told.ids.erase(told.ids.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+}
+
+/// @param seen  By the vehicle, and from where: the middle of its front.
+void change(messages::object_list& told, const messages::object_list& seen,
             chain_lie what) {
+  const auto& from = *seen.eye;
+  if (what == chain_lie::tracks_hidden)
+    hide(told, seen.objects);
   const auto ahead = messages::unit_vector(from.heading_rad);
   const point left{-ahead.y_m, ahead.x_m};
   const auto is_near = [&](const world::perceived_object& x) {
@@ -148,7 +164,7 @@ private:
     auto told = actors::read_objects(honest, *world_, now);
     if (!told || !seen || !seen->eye)
       return {};
-    change(*told, *seen->eye, what_);
+    change(*told, *seen, what_);
     std::vector<planners::track> changed;
     for (std::size_t k = 0; k < told->objects.size(); ++k)
       changed.push_back(track_of(told->objects[k], told->ids[k], told->at));

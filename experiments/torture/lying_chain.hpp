@@ -18,6 +18,7 @@ enum class chain_lie {
   tracks_added,   ///< A car stands 15 m before it.
   tracks_shifted, ///< All bodies within 60 m are 3 m farther left.
   tracks_slowed,  ///< They are told to move half as fast.
+  tracks_hidden,  ///< No body is told that the vehicle does not see itself.
   scene_removed,  ///< Nobody leads, crosses, or is beside.
   scene_added,    ///< A lead stands 12 m before it.
   scene_shifted,  ///< Leads and who crosses are 12 m farther, and those beside
@@ -25,9 +26,10 @@ enum class chain_lie {
   scene_map,      ///< All of it is 8 m farther on: by a map that is shifted.
 };
 
-inline constexpr std::array<std::string_view, 8> chain_lie_names{
-    "tracks_removed", "tracks_added", "tracks_shifted", "tracks_slowed",
-    "scene_removed",  "scene_added",  "scene_shifted",  "scene_map"};
+inline constexpr std::array<std::string_view, 9> chain_lie_names{
+    "tracks_removed", "tracks_added",  "tracks_shifted",
+    "tracks_slowed",  "tracks_hidden", "scene_removed",
+    "scene_added",    "scene_shifted", "scene_map"};
 
 /// @returns nullopt for a name that no such lie has.
 std::optional<chain_lie> chain_lie_of(std::string_view name);

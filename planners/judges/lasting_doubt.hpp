@@ -37,8 +37,6 @@ public:
   /// @returns how much more doubt would be too much, s.
   double left_s() const { return limit_s_ - sum_s_; }
 
-  double sum_s() const { return sum_s_; }
-
 private:
   double limit_s_;
   double sum_s_ = 0;

@@ -23,8 +23,8 @@ constexpr auto usual_length_m = 4.0, usual_width_m = 1.8;
 /// A lead that drives as it tells may speed up by so much.
 constexpr auto lead_speeds_up_mps2 = 3.0;
 
-bool overlap(double a_from_m, double a_to_m, double b_from_m, double b_to_m,
-             double slack_m) {
+bool meet(double a_from_m, double a_to_m, double b_from_m, double b_to_m,
+          double slack_m) {
   return a_from_m <= b_to_m + slack_m && b_from_m <= a_to_m + slack_m;
 }
 
@@ -53,7 +53,7 @@ bool are_alike(const List& one, const List& other, double from_m, double to_m,
   return all_in(one, other) && all_in(other, one);
 }
 
-void put_in_order(driving_scene& x) {
+void sort_lists(driving_scene& x) {
   std::ranges::sort(x.crossings, {}, [](const crossing_user& c) {
     return std::tuple{c.from_m, c.to_m, c.body};
   });
@@ -63,6 +63,21 @@ void put_in_order(driving_scene& x) {
 }
 
 } // namespace
+
+scene_judge::scene_judge(const world::vehicle_params& car,
+                         const sighting_noise& noise)
+    : car_{car} {
+  constexpr auto sure = 4.0; // standard deviations
+  const sighting_noise good;
+  const auto more = [](double here, double there) {
+    return std::max(0.0, here - there);
+  };
+  uncertain_m_ =
+      sure
+      * (more(noise.position_m, good.position_m)
+         + usual_length_m / 2 * more(noise.heading_rad, good.heading_rad));
+  assert(uncertain_m_ >= 0);
+}
 
 double scene_judge::matters_to_m(const own_knowledge& x) const {
   const auto v = x.speed_mps;
@@ -87,7 +102,7 @@ scene_verdict scene_judge::judge(const own_knowledge& x,
                     hold_to_map(x, told),    hold_to_lead(x, told),
                     hold_to_beside(x, told), hold_to_crossings(x, told)};
   told.is_impatient = told.is_impatient && x.scene.is_impatient;
-  put_in_order(told);
+  sort_lists(told);
   if (!waits.empty())
     return {objection{waits, waited_s_, limits.most_waited_s}};
   const auto found = std::ranges::find_if(
@@ -146,9 +161,9 @@ bool scene_judge::is_passed(const own_knowledge& x, double at_m,
     any = true;
     if (std::ranges::none_of(told.beside, [&](const lane_obstacle& o) {
           return o.left_m <= 0 && o.lacks_m < limits.most_lacking_m
-                 && overlap(o.from_m, o.to_m, foot->from_m, foot->to_m, 0)
-                 && o.low_m <= foot->low_m + limits.beside_m
-                 && o.high_m >= foot->high_m - limits.beside_m;
+                 && meet(o.from_m, o.to_m, foot->from_m, foot->to_m, 0)
+                 && o.low_m <= foot->low_m + limits.beside_m + uncertain_m_
+                 && o.high_m >= foot->high_m - limits.beside_m - uncertain_m_;
         }))
       return false;
   }
@@ -166,8 +181,8 @@ bool scene_judge::is_covered(const own_knowledge& x, const lead_vehicle& lead,
   const auto crosses_there =
       std::ranges::any_of(told.crossings, [&](const crossing_user& c) {
         return c.enter_s < limits.here_s
-               && overlap(c.from_m, c.to_m, lead.rear_s_m,
-                          lead.rear_s_m + looked_for_within_m / 2, off_m);
+               && meet(c.from_m, c.to_m, lead.rear_s_m,
+                       lead.rear_s_m + looked_for_within_m / 2, off_m);
       });
   return crosses_there || is_passed(x, lead.rear_s_m, told);
 }
@@ -212,14 +227,14 @@ std::string_view scene_judge::hold_to_beside(const own_knowledge& x,
         || (told.lead && told.lead->rear_s_m <= own.from_m + off_m))
       continue;
     const auto same = std::ranges::find_if(told.beside, [&](const auto& o) {
-      return overlap(o.from_m, o.to_m, own.from_m, own.to_m, off_m)
-             && overlap(o.low_m, o.high_m, own.low_m, own.high_m,
-                        limits.beside_m);
+      return meet(o.from_m, o.to_m, own.from_m, own.to_m, off_m)
+             && meet(o.low_m, o.high_m, own.low_m, own.high_m,
+                     limits.beside_m + uncertain_m_);
     });
     const auto crosses_there =
         std::ranges::any_of(told.crossings, [&](const crossing_user& c) {
           return c.enter_s < limits.here_s
-                 && overlap(c.from_m, c.to_m, own.from_m, own.to_m, off_m);
+                 && meet(c.from_m, c.to_m, own.from_m, own.to_m, off_m);
         });
     if (crosses_there)
       continue;
@@ -230,7 +245,7 @@ std::string_view scene_judge::hold_to_beside(const own_knowledge& x,
     }
     const auto farther_m =
         std::max(same->low_m - own.low_m, own.high_m - same->high_m);
-    if (farther_m > limits.beside_m + moves_m)
+    if (farther_m > limits.beside_m + uncertain_m_ + moves_m)
       check = "beside";
     if (farther_m > limits.widened_m + moves_m) {
       same->low_m = std::min(same->low_m, own.low_m);
@@ -250,8 +265,7 @@ std::string_view scene_judge::hold_to_crossings(const own_knowledge& x,
       continue;
     const auto is_told = [&](const crossing_user& c) {
       return c.goes_first
-             && overlap(c.from_m, c.to_m, own.from_m, own.to_m,
-                        limits.crossing_m)
+             && meet(c.from_m, c.to_m, own.from_m, own.to_m, limits.crossing_m)
              && c.enter_s <= own.enter_s + limits.crossing_s
              && c.leave_s >= own.leave_s - limits.crossing_s;
     };
@@ -261,8 +275,7 @@ std::string_view scene_judge::hold_to_crossings(const own_knowledge& x,
     const auto stands = [&](const crossing_user& c) {
       return std::isinf(own.leave_s) && c.goes_first
              && c.enter_s <= own.enter_s + limits.crossing_s
-             && overlap(c.from_m, c.to_m, own.from_m, own.to_m,
-                        limits.crossing_m);
+             && meet(c.from_m, c.to_m, own.from_m, own.to_m, limits.crossing_m);
     };
     if (std::any_of(first, last, is_told) || std::any_of(first, last, stands))
       continue;
@@ -281,8 +294,7 @@ bool scene_judge::is_known_at(const own_knowledge& x, double from_m,
     const auto foot =
         measure_body(x.way, predict(t, x.scene.at),
                      {from_m, looked_for_within_m, corridor_half_m});
-    return foot
-           && overlap(foot->from_m, foot->to_m, from_m, to_m, limits.along_m);
+    return foot && meet(foot->from_m, foot->to_m, from_m, to_m, limits.along_m);
   });
 }
 

@@ -7,6 +7,7 @@
 #include "planners/plausibility/witness.hpp"
 #include "planners/scene/driving_scene.hpp"
 #include "planners/scene/line_of_sight.hpp"
+#include "planners/scene/object_tracker.hpp"
 #include "planners/scene/track.hpp"
 #include "world/roads/route.hpp"
 #include "world/vehicle/vehicle.hpp"
@@ -87,15 +88,17 @@ struct scene_limits {
 /// as much off. What is told of places that the vehicle cannot see is believed.
 class scene_judge {
 public:
-  explicit scene_judge(const world::vehicle_params& car = {}) : car_{car} {}
+  /// @param noise  Of the own sensor: what is known is as uncertain.
+  explicit scene_judge(const world::vehicle_params& car = {},
+                       const sighting_noise& noise = {});
 
   /// @param houses  Of the map.
   /// @param told    Is made as cautious as what is known.
   scene_verdict judge(const own_knowledge& x, const line_of_sight& houses,
                       driving_scene& told);
 
-  /// @returns how much doubt there is, s.
-  double doubt_s() const { return doubt_.sum_s(); }
+  /// @returns how much more doubt would be too much, s.
+  double left_s() const { return doubt_.left_s(); }
 
 private:
   static constexpr scene_limits limits{};
@@ -125,6 +128,7 @@ private:
                         double passed_s);
 
   world::vehicle_params car_;
+  double uncertain_m_; // of the sides of bodies, beyond a good sensor's
   witness own_;
   std::optional<time_point> looked_at_, judged_at_;
   lasting_doubt doubt_{limits.doubt_s};

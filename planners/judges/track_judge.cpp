@@ -21,21 +21,41 @@ constexpr duration offset_memory = std::chrono::seconds{1};
 /// A body may be in the place of another one so far from its middle, along
 /// it and across.
 constexpr double place_along_m = 2.5, place_across_m = 1.6;
+/// Sensors err by no more standard deviations.
+constexpr double sure_sigmas = 4;
 
-point axis_of(const world::perceived_object& x) {
-  return {std::cos(x.heading_rad), std::sin(x.heading_rad)};
-}
-
-double distance2_m2(point a, point b) {
+double squared_m2(point a, point b) {
   const auto apart = a - b;
   return dot(apart, apart);
+}
+
+/// @returns whether a body is where its own motion does not lead.
+/// @param most_m  Whoever is not that far away from it is left in peace.
+bool is_elsewhere(const world::perceived_object& before,
+                  const world::perceived_object& now, double passed_s,
+                  double most_m) {
+  const auto way_m =
+      std::max(std::abs(before.speed_mps), std::abs(now.speed_mps)) * passed_s;
+  if (squared_m2(before.centre, now.centre)
+          < (most_m - way_m) * (most_m - way_m)
+      && way_m < most_m)
+    return false; // cheap, and mostly so
+  return unexplained_m({time_point{}, before},
+                       {time_point{} + from_seconds(passed_s), now})
+         > most_m;
+}
+
+point facing(const world::perceived_object& x) {
+  return {std::cos(x.heading_rad), std::sin(x.heading_rad)};
 }
 
 } // namespace
 
 track_judge::track_judge(const sighting_noise& noise,
                          std::shared_ptr<const line_of_sight> houses)
-    : noise_{noise}, houses_{std::move(houses)} {
+    : noise_{noise}, worse_m_{std::max(0.0, noise.position_m
+                                                - sighting_noise{}.position_m)},
+      houses_{std::move(houses)} {
   assert(houses_);
 }
 
@@ -79,7 +99,7 @@ void track_judge::remember(const judged_tracks& x, double matters_m) {
   room.clear();
   for (const auto& o : x.look.seen)
     if (room.size() < most_bodies
-        && distance2_m2(o.centre, x.look.from.at) < matters_m * matters_m)
+        && squared_m2(o.centre, x.look.from.at) < matters_m * matters_m)
       room.push_back(o);
   past_.push_back({x.look.seen_at, std::move(room)});
 }
@@ -96,7 +116,7 @@ bool track_judge::was_there(const past_look& then,
                             time_point at) {
   const auto since_s = to_seconds(at - then.at);
   const auto before = moved_on(body, -since_s);
-  const auto axis = axis_of(body);
+  const auto axis = facing(body);
   const auto drift_m = 0.5 * limits.drift_mps2 * since_s * since_s;
   return std::ranges::any_of(then.seen, [&](const auto& o) {
     const auto apart = o.centre - before.centre;
@@ -111,22 +131,20 @@ track_judge::comparison
 track_judge::compare(const world::perceived_object& seen, point axis,
                      const world::perceived_object& told,
                      double apart_s) const {
-  constexpr auto sure = 4.0; // standard deviations
   const auto apart = told.centre - seen.centre;
-  const auto drift_m =
-      0.5 * limits.drift_mps2 * apart_s * apart_s
-      + sure * (noise_.position_m - sighting_noise{}.position_m)
-      + sure * noise_.speed_mps * apart_s;
+  const auto drift_m = 0.5 * limits.drift_mps2 * apart_s * apart_s
+                       + sure_sigmas * worse_m_
+                       + sure_sigmas * noise_.speed_mps * apart_s;
   comparison x{dot(axis, apart), cross(axis, apart), 0, false, false};
   x.in_place = std::abs(x.along_m) < limits.along_m + drift_m
                && std::abs(x.across_m) < limits.across_m + drift_m;
   if (!x.in_place)
     return x;
-  const auto faster = told.speed_mps * axis_of(told) + -seen.speed_mps * axis;
+  const auto faster = told.speed_mps * facing(told) + -seen.speed_mps * axis;
   x.speed_mps = std::sqrt(dot(faster, faster));
   const auto turns_mps = std::abs(seen.speed_mps) * noise_.heading_rad;
   x.alike = x.speed_mps < limits.speed_mps + 2 * limits.drift_mps2 * apart_s
-                              + sure * (noise_.speed_mps + turns_mps)
+                              + sure_sigmas * (noise_.speed_mps + turns_mps)
             && told.length_m > seen.length_m - limits.length_m
             && told.width_m > seen.width_m - limits.width_m;
   return x;
@@ -154,8 +172,7 @@ bool track_judge::is_off_on_average(std::uint32_t id, const comparison& how,
   }
   const auto off_m = std::hypot(it->along_m, it->across_m);
   const auto uncertain_m =
-      4 * std::sqrt(limits.mean_share)
-      * std::max(0.0, noise_.position_m - sighting_noise{}.position_m);
+      sure_sigmas * std::sqrt(limits.mean_share) * worse_m_;
   return it->looks >= limits.mean_of && off_m > limits.mean_m + uncertain_m;
 }
 
@@ -173,10 +190,10 @@ std::string_view track_judge::look_for_seen(const judged_tracks& x) {
   const auto* earlier = look_before(seen_at - from_seconds(limits.known_for_s));
   std::string_view check;
   for (const auto& body : past_.back().seen) {
-    const auto axis = axis_of(body);
+    const auto axis = facing(body);
     auto is_told = false, is_near = false;
     for (std::size_t k = 0; k < told_.size() && !is_told; ++k) {
-      const auto apart_m2 = distance2_m2(told_[k].centre, body.centre);
+      const auto apart_m2 = squared_m2(told_[k].centre, body.centre);
       if (apart_m2 > limits.near_m * limits.near_m)
         continue;
       is_near = true;
@@ -204,10 +221,10 @@ std::string_view track_judge::look_for_told(const judged_tracks& x,
   const auto drift_m = 0.5 * limits.drift_mps2 * apart_s * apart_s;
   assert(told_.size() == x.told.size());
   for (const auto& o : told_) {
-    const auto apart_m2 = distance2_m2(o.centre, x.look.from.at);
+    const auto apart_m2 = squared_m2(o.centre, x.look.from.at);
     if (apart_m2 > matters_m * matters_m || apart_m2 < o.width_m * o.width_m)
       continue;
-    const auto axis = axis_of(o);
+    const auto axis = facing(o);
     const auto is_seen = std::ranges::any_of(x.look.seen, [&](const auto& b) {
       const auto apart = b.centre - o.centre;
       return std::abs(dot(axis, apart)) < place_along_m + drift_m
@@ -219,10 +236,12 @@ std::string_view track_judge::look_for_told(const judged_tracks& x,
   return {};
 }
 
+/// Whatever the place: a number or a motion that no road user has.
 std::string_view track_judge::find_impossible(const judged_tracks& x) {
   std::string_view check;
-  std::vector<std::pair<std::uint32_t, world::perceived_object>> now;
-  now.reserve(x.told.size());
+  const auto id_of = [](const auto& o) { return o.first; };
+  std::swap(told_now_, told_before_);
+  told_now_.clear();
   for (std::size_t k = 0; k < x.told.size(); ++k) {
     const auto& o = x.told[k];
     if (!(std::abs(o.speed_mps) < limits.most_speed_mps
@@ -230,20 +249,22 @@ std::string_view track_judge::find_impossible(const judged_tracks& x) {
           && o.length_m < limits.most_length_m
           && o.width_m < limits.most_width_m))
       check = "limits";
-    now.emplace_back(x.ids[k], o);
+    told_now_.emplace_back(x.ids[k], o);
   }
-  std::ranges::sort(now, {}, [](const auto& o) { return o.first; });
-  if (x.at > told_at_)
-    for (const auto& [id, o] : now) {
-      const auto before = std::ranges::lower_bound(
-          told_before_, id, {}, [](const auto& y) { return y.first; });
-      if (before != told_before_.end() && before->first == id
-          && unexplained_m({told_at_, before->second}, {x.at, o})
-                 > limits.jump_m)
-        check = "jump";
-    }
+  if (!std::ranges::is_sorted(told_now_, {}, id_of))
+    std::ranges::sort(told_now_, {}, id_of);
+  auto before = told_before_.begin();
+  for (const auto& [id, o] : told_now_) {
+    before = std::find_if(before, told_before_.end(),
+                          [id = id](const auto& y) { return y.first >= id; });
+    if (before == told_before_.end() || x.at <= told_at_)
+      break;
+    if (before->first == id
+        && is_elsewhere(before->second, o, to_seconds(x.at - told_at_),
+                        limits.jump_m))
+      check = "jump";
+  }
   told_at_ = x.at;
-  told_before_ = std::move(now);
   return check;
 }
 

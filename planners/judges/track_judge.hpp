@@ -99,8 +99,8 @@ public:
   /// are; valid until the next result.
   std::span<const world::perceived_object> besides() const { return besides_; }
 
-  /// @returns how much doubt there is, s.
-  double doubt_s() const { return doubt_.sum_s(); }
+  /// @returns how much more doubt would be too much, s.
+  double left_s() const { return doubt_.left_s(); }
 
 private:
   static constexpr track_limits limits{};
@@ -136,6 +136,7 @@ private:
   void remember(const judged_tracks& x, double matters_m);
 
   sighting_noise noise_;
+  double worse_m_; // than a good sensor, standard deviation
   std::shared_ptr<const line_of_sight> houses_;
   witness own_;
   lasting_doubt doubt_{limits.doubt_s};
@@ -143,9 +144,10 @@ private:
   std::vector<past_look> past_; // the newest last
   std::vector<offset> offsets_;
   std::vector<world::perceived_object> besides_;
-  // Of the last result: told bodies, as they were told, in order of their ids.
+  // Of the last result, and of this one: told bodies in order of their ids.
   time_point told_at_;
-  std::vector<std::pair<std::uint32_t, world::perceived_object>> told_before_;
+  std::vector<std::pair<std::uint32_t, world::perceived_object>> told_before_,
+      told_now_;
   // Room that is used again: told bodies at the moment of the look.
   std::vector<world::perceived_object> told_;
 };

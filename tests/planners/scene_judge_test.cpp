@@ -98,7 +98,7 @@ TEST_CASE("a scene that is told as it is known is believed") {
   x.own.crossings = {{215, 220, 1, 3, true, forever, 7}};
   x.own.keep_free = {{260, 270}};
   CHECK_FALSE(x.go_on(5, x.own));
-  CHECK(x.judge.doubt_s() == 0);
+  CHECK(x.judge.left_s() == 1);
 }
 
 TEST_CASE("a lead that is known and not told, or told farther or faster, is "

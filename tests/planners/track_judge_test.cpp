@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-perceived_object car_at(double x_m, double y_m, double speed_mps = 0) {
+perceived_object told_car(double x_m, double y_m, double speed_mps = 0) {
   return {{x_m, y_m}, 0, speed_mps, 0, 5.1, 1.89};
 }
 
@@ -93,7 +93,7 @@ struct told_drive_of_tracks {
 TEST_CASE("what is told as it is seen is believed, with the sensor's noise") {
   told_drive_of_tracks x;
   x.noise_m = 0.1;
-  x.seen = {car_at(20, 0, 8), car_at(-15, 3), car_at(40, -3.5, -8)};
+  x.seen = {told_car(20, 0, 8), told_car(-15, 3), told_car(40, -3.5, -8)};
   x.told = {{1, x.seen[0]}, {2, x.seen[1]}, {3, x.seen[2]}};
   CHECK_FALSE(x.go_on(5, [&] { CHECK(x.besides == 0); }));
 }
@@ -101,7 +101,7 @@ TEST_CASE("what is told as it is seen is believed, with the sensor's noise") {
 TEST_CASE("a body that is seen and not told is added from the first result on, "
           "and refused after a second") {
   told_drive_of_tracks x;
-  x.seen = {car_at(20, 0)};
+  x.seen = {told_car(20, 0)};
   CHECK_FALSE(x.step().refused);
   CHECK(x.besides == 1);
   const auto end = x.go_on(3);
@@ -113,17 +113,17 @@ TEST_CASE("a body that is seen and not told is added from the first result on, "
 TEST_CASE("a body that has just come into sight is told a moment later") {
   told_drive_of_tracks x;
   CHECK_FALSE(x.go_on(2));
-  x.seen = {car_at(30, 0)};
+  x.seen = {told_car(30, 0)};
   CHECK_FALSE(x.step().refused);
   CHECK(x.besides == 0);
   x.told = {{1, x.seen[0]}};
   CHECK_FALSE(x.go_on(2));
-  CHECK(x.judge.doubt_s() == 0);
+  CHECK(x.judge.left_s() == 1);
 }
 
 TEST_CASE("a body far away is not missed") {
   told_drive_of_tracks x;
-  x.seen = {car_at(50, 0)};
+  x.seen = {told_car(50, 0)};
   CHECK_FALSE(x.go_on(3));
   SUBCASE("unless the vehicle cannot stop calmly before it") {
     x.speed_mps = 14;
@@ -136,7 +136,7 @@ TEST_CASE("a body far away is not missed") {
 TEST_CASE("a body that is told where the vehicle looks freely and sees none is "
           "refused") {
   told_drive_of_tracks x;
-  x.told = {{1, car_at(15, 0)}};
+  x.told = {{1, told_car(15, 0)}};
   const auto end = x.go_on(3);
   REQUIRE(end);
   CHECK(end->first == "added");
@@ -145,15 +145,15 @@ TEST_CASE("a body that is told where the vehicle looks freely and sees none is "
 
 TEST_CASE("a body that another one hides is believed") {
   told_drive_of_tracks x;
-  x.seen = {car_at(10, 0)};
-  x.told = {{1, car_at(10, 0)}, {2, car_at(18, 0)}};
+  x.seen = {told_car(10, 0)};
+  x.told = {{1, told_car(10, 0)}, {2, told_car(18, 0)}};
   CHECK_FALSE(x.go_on(5));
 }
 
 TEST_CASE("a body that is told for a moment after it has gone is believed") {
   told_drive_of_tracks x;
   for (int k = 0; k < 5; ++k) {
-    x.told = {{1, car_at(15, 0)}};
+    x.told = {{1, told_car(15, 0)}};
     CHECK_FALSE(x.go_on(0.6));
     x.told.clear();
     CHECK_FALSE(x.go_on(1.4));
@@ -165,8 +165,8 @@ TEST_CASE("bodies that are told beside their places are added, and refused") {
     CAPTURE(by_m);
     told_drive_of_tracks x;
     x.noise_m = 0.1;
-    x.seen = {car_at(20, 0)};
-    x.told = {{1, car_at(20, by_m)}};
+    x.seen = {told_car(20, 0)};
+    x.told = {{1, told_car(20, by_m)}};
     const auto end = x.go_on(4);
     REQUIRE(end);
     CHECK(end->first == "shifted");
@@ -177,16 +177,16 @@ TEST_CASE("bodies that are told beside their places are added, and refused") {
 TEST_CASE("a body that is told to drive on while it stands is added, and "
           "refused") {
   told_drive_of_tracks x;
-  x.seen = {car_at(20, 0)};
-  const auto end = x.go_on(3, [&] { x.told = {{1, car_at(20, 0, 6)}}; });
+  x.seen = {told_car(20, 0)};
+  const auto end = x.go_on(3, [&] { x.told = {{1, told_car(20, 0, 6)}}; });
   REQUIRE(end);
   CHECK(end->first == "shifted");
 }
 
 TEST_CASE("a body that is told smaller than it is is added, and refused") {
   told_drive_of_tracks x;
-  x.seen = {car_at(20, 0)};
-  auto small = car_at(20, 0);
+  x.seen = {told_car(20, 0)};
+  auto small = told_car(20, 0);
   small.width_m = 0.5;
   x.told = {{1, small}};
   REQUIRE(x.go_on(3));
@@ -197,13 +197,13 @@ TEST_CASE("a body that no road user is, or that jumps, is refused wherever it "
           "is") {
   told_drive_of_tracks x;
   SUBCASE("too fast") {
-    x.told = {{1, car_at(-90, 50, 80)}};
+    x.told = {{1, told_car(-90, 50, 80)}};
     const auto end = x.go_on(3);
     REQUIRE(end);
     CHECK(end->first == "limits");
   }
   SUBCASE("too large") {
-    x.told = {{1, car_at(90, 50)}};
+    x.told = {{1, told_car(90, 50)}};
     x.told[0].second.width_m = 20;
     const auto end = x.go_on(3);
     REQUIRE(end);
@@ -213,7 +213,7 @@ TEST_CASE("a body that no road user is, or that jumps, is refused wherever it "
     auto side_m = 50.0;
     const auto end = x.go_on(3, [&] {
       side_m = -side_m;
-      x.told = {{1, car_at(90, side_m)}};
+      x.told = {{1, told_car(90, side_m)}};
     });
     REQUIRE(end);
     CHECK(end->first == "jump");
@@ -222,12 +222,12 @@ TEST_CASE("a body that no road user is, or that jumps, is refused wherever it "
 
 TEST_CASE("who changes from one lie to the next is refused as soon") {
   told_drive_of_tracks x;
-  x.seen = {car_at(20, 3)};
+  x.seen = {told_car(20, 3)};
   int k = 0;
   REQUIRE(x.go_on(2, [&] {
     x.told.clear();
     if (++k % 2 == 0)
-      x.told = {{1, car_at(20, 3)}, {2, car_at(12, 0)}};
+      x.told = {{1, told_car(20, 3)}, {2, told_car(12, 0)}};
   }));
 }
 

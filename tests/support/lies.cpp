@@ -325,11 +325,10 @@ int drive_chain(std::string_view what, std::string_view offered,
   fmt::print("lie={} offered={} seed={} seconds={} collisions={} "
              "beyond_m={:.2f} outside_s={:.2f} braking_s={:.2f} "
              "least_accel_mps2={:.2f} over_mps={:.2f} without_plan_s={:.3f} "
-             "requests={} refused={} used={} checks={}\n",
+             "refused={} used={} checks={}\n",
              what, offered, seed, seconds, x.collisions, x.beyond_m,
              x.outside_s, x.braking_s, x.least_accel_mps2, x.over_mps,
-             without_plan_s, x.requests, x.refused, counted(used),
-             counted(x.checks));
+             without_plan_s, x.refused, counted(used), counted(x.checks));
   return 0;
 }
 

@@ -26,7 +26,10 @@ constexpr double same_place_m = 4;
 class told_scenes final : public offloading::result_judge {
 public:
   told_scenes(planning_world_ptr world, station_id vehicle)
-      : world_{std::move(world)}, vehicle_{vehicle}, judge_{world_->car} {}
+      : world_{std::move(world)}, vehicle_{vehicle}, judge_{world_->car,
+                                                            planners::noise_of(
+                                                                world_->eyes)} {
+  }
 
   offloading::judged_result judge(const messages::payload& result,
                                   const messages::service_input& latest,
@@ -59,7 +62,11 @@ public:
                      world_->roads->houses(), told->scene);
     if (verdict.refused)
       return {{}, verdict.refused};
-    return {messages::payload::of(known_scene{std::move(told->scene), {}})};
+    margin_ = {"doubt_s", judge_.left_s()};
+    return {messages::payload::of(known_scene{std::move(told->scene), {}}),
+            {},
+            {},
+            {&margin_, 1}};
   }
 
 private:
@@ -97,6 +104,7 @@ private:
   planning_world_ptr world_;
   station_id vehicle_;
   planners::scene_judge judge_;
+  margin margin_;
   world::route_ptr way_;
   std::optional<planners::scene_interpreter> scene_; // whenever there is a way
   // Room that is used again.

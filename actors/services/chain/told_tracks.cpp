@@ -49,7 +49,9 @@ public:
       return {{}, verdict.refused, verdict.useless};
     model_.update(told->at, told->objects);
     add_besides(*request);
-    return {messages::payload::of(known_tracks{united()})};
+    margin_ = {"doubt_s", judge_.left_s()};
+    return {
+        messages::payload::of(known_tracks{united()}), {}, {}, {&margin_, 1}};
   }
 
 private:
@@ -83,6 +85,7 @@ private:
 
   planning_world_ptr world_;
   planners::track_judge judge_;
+  margin margin_;
   planners::object_tracker model_;
   std::optional<planners::object_tracker> besides_;
   std::optional<time_point> besides_at_; // when there was one of them last
