@@ -34,6 +34,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <string_view>
@@ -302,10 +303,34 @@ int drive(lie what, std::uint64_t seed, bool traffic, int seconds) {
   return 0;
 }
 
+/// Lets a car stand in the way of the first ones, in the middle of their lane
+/// or with room to pass it: who is not told of it, or elsewhere, drives into
+/// it.
+void put_in_the_way(scenario_definition& s, std::uint64_t seed) {
+  constexpr double ahead_m = 120, to_right_m = 1.6, clear_m = 12;
+  const auto placed = place_vehicles(s);
+  const auto& first = placed.front();
+  const auto& path = first.way->path();
+  for (auto at_m = first.start_s_m + ahead_m;; at_m += clear_m) {
+    const auto here = path.at(at_m);
+    const point left{-std::sin(here.heading_rad), std::cos(here.heading_rad)};
+    const auto is_near = [&](const auto& v) {
+      return distance_m(v.way->path().at(v.start_s_m).at, here.at) < clear_m;
+    };
+    if (std::ranges::any_of(placed, is_near))
+      continue;
+    s.obstacles.push_back(
+        {.position_m = here.at + (seed % 2 == 0 ? -to_right_m : 0.0) * left,
+         .heading_deg = here.heading_rad * 180 / std::numbers::pi});
+    return;
+  }
+}
+
 /// @param what  A lie about plans, tracks or scenes, or none.
 int drive_chain(std::string_view what, std::string_view offered,
                 std::uint64_t seed, int seconds) {
   auto s = scene(seed, true, seconds, "always", whole_chain(offered));
+  put_in_the_way(s, seed);
   const auto of_plans = lie_of(what);
   const auto of_chain = chain_lie_of(what);
   for (auto& kind : s.services)
