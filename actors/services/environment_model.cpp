@@ -31,11 +31,11 @@ messages::payload with_scene(const messages::payload& input,
 class environment_model final : public service_type {
 public:
   environment_model() {
-    // Ours, as those of tracking. Tracks come every 50 ms at most, not to the
-    // millisecond: an input is sent for each of them.
+    // Ours, as those of tracking. An input is sent for all tracks, which come
+    // every 50 ms, more or less.
     options.limits = {100ms, 250ms, 300ms};
     options.period = 50ms;
-    options.input_period = 40ms;
+    options.input_period = 10ms;
     options.per_input = true;
     options.compute = {.run_time_mean = 3ms,
                        .run_time_sd = 500us,

@@ -50,15 +50,18 @@ public:
         world.streets, world.where, world.car, world.crossings_granted,
         world.eyes, planner_options{}, nullptr, planners::rss_assumptions{},
         world.beside);
-    return {
-        .name = name(),
-        .options = options,
-        .in_vehicle =
-            [shared](const auto&) { return make_tracking_in_vehicle(shared); },
-        .at_provider =
-            [shared](const auto& provider) {
-              return make_tracking_at_provider(shared, provider);
-            }};
+    const auto houses = std::make_shared<const planners::line_of_sight>(
+        world.streets->map.buildings());
+    return {.name = name(),
+            .options = options,
+            .in_vehicle =
+                [shared, houses](const auto&) {
+                  return make_tracking_in_vehicle(shared, houses);
+                },
+            .at_provider =
+                [shared](const auto& provider) {
+                  return make_tracking_at_provider(shared, provider);
+                }};
   }
 
   service_client spawn_client(const client_place& where) const override {

@@ -52,8 +52,11 @@ loaded_scenario load(const tried_scenario& tried) {
   if (!found.lies)
     return found;
   const auto* planning = scenario::planning_service(found.what);
+  const auto of_chain = chain_lie_of(found.lies->what);
   for (auto& type : found.what.services)
-    if (type.get() == planning)
+    if (of_chain && type->name() == liar_of(*of_chain))
+      type = lying_chain(type, *of_chain, found.lies->after);
+    else if (!of_chain && type.get() == planning)
       type = lying_service(type, lie_of(found.lies->what).value(),
                            found.lies->after);
   return found;

@@ -2,9 +2,12 @@
 #pragma once
 
 #include "base/options/option_helpers.hpp"
+#include "experiments/torture/lying_chain.hpp"
 #include "experiments/torture/lying_planning.hpp"
 #include "scenario/scenario.hpp"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -14,13 +17,21 @@
 
 namespace sofof::experiments::torture {
 
+/// All that a provider may lie about.
+inline constexpr auto all_lie_names = [] {
+  std::array<std::string_view, lie_names.size() + chain_lie_names.size()> all;
+  std::ranges::copy(chain_lie_names,
+                    std::ranges::copy(lie_names, all.begin()).out);
+  return all;
+}();
+
 /// The table [lies].
 struct lie_options {
-  std::string what = "jump"; ///< What planning at providers says instead.
+  std::string what = "jump"; ///< What services at providers say instead.
   duration after = std::chrono::seconds{8}; ///< Of each session.
 
   void visit_options(option_visitor& s) {
-    visit_word(s, "what", what, "lie", lie_names);
+    visit_word(s, "what", what, "lie", all_lie_names);
     s.field("after", after, duration{});
   }
 };

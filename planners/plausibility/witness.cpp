@@ -120,9 +120,17 @@ witness::sight witness::look_at(const track& x) const {
 }
 
 bool witness::overlooks(const track& x, const line_of_sight& houses) const {
+  return overlooks(timed_body{at_, body_at(x, at_)}, houses);
+}
+
+bool witness::overlooks(const timed_body& x,
+                        const line_of_sight& houses) const {
   const auto before = at_ - noticed_after;
-  return is_complete_ && is_open(body_at(x, at_), houses, at_)
-         && is_open(body_at(x, before), houses, before);
+  const auto at = [&x](time_point t) {
+    return moved_on(x.what, to_seconds(t - x.at));
+  };
+  return is_complete_ && is_open(at(at_), houses, at_)
+         && is_open(at(before), houses, before);
 }
 
 bool witness::is_sure(const line_of_sight& houses) const {

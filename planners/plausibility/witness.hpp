@@ -52,6 +52,7 @@ public:
   /// 0.3 s: both then and now it is well within range and field of view, its
   /// front, middle or rear lies open, and all that is seen is known.
   bool overlooks(const track& x, const line_of_sight& houses) const;
+  bool overlooks(const timed_body& x, const line_of_sight& houses) const;
 
   /// @returns whether all that it tells of is still in sight: told of in the
   /// last look, or well in view. Else one of them may have gone, and another

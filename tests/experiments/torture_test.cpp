@@ -6,11 +6,13 @@
 #include "experiments/torture/draw.hpp"
 #include "experiments/torture/seed_log.hpp"
 #include "tests/support/contains.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/scratch.hpp"
 
 #include <doctest/doctest.h>
 
 #include <atomic>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -87,6 +89,34 @@ TEST_CASE("a provider that lies is found out, and no promise breaks") {
       at / "run");
   CHECK(v.is_good());
   CHECK(v.counts[counted::lie] == 1); // it is not asked again for a minute
+}
+
+TEST_CASE("a provider that lies about tracks or scenes is found out, and no "
+          "promise breaks") {
+  const std::filesystem::path file =
+      SOFOF_SOURCE_DIR "/config/chain/attacked.toml";
+  const std::string lie = "what = \"tracks_removed\"";
+  auto text = test::read_file(file);
+  const auto put = [&text](std::string_view old, std::string_view other) {
+    const auto at = text.find(old);
+    REQUIRE(at != std::string::npos);
+    text.replace(at, old.size(), other);
+  };
+  put("duration = \"60s\"", "duration = \"25s\"");
+  SUBCASE("bodies are not told") {}
+  SUBCASE("bodies are told beside their places") {
+    put(lie, "what = \"tracks_shifted\"");
+  }
+  SUBCASE("nobody is told to lead") {
+    put(lie, "what = \"scene_removed\"");
+  }
+  SUBCASE("crossings are told elsewhere") {
+    put(lie, "what = \"scene_map\"");
+  }
+  const test::scratch at;
+  const auto v = try_here({text, file}, at / "run");
+  CHECK(v.is_good());
+  CHECK(v.counts[counted::lie] >= 1);
 }
 
 TEST_CASE("a lie that nobody knows is refused") {

@@ -3,6 +3,11 @@
 //   lies drive LIE SEED yes|no SECONDS   in virtual time, with or without
 //                                        other traffic; prints a line of
 //                                        figures: NAME=VALUE ...
+//   lies chain LIE OFFERED SEED SECONDS
+//                                        the same of a chain: LIE is also one
+//                                        about tracks or scenes, or `none`;
+//                                        OFFERED names the services at the
+//                                        provider, with commas between
 //   lies provide LIE SCENARIO HOST:PORT KEYS SECONDS OUT
 //                                        as `sofof provide`, over TLS
 //   lies conduct LIE SCENARIO AFTER_MS   runs it, in virtual time, with servers
@@ -12,6 +17,7 @@
 //                                        prints what a plan takes, µs
 #include "actors/services/planning/plan_request.hpp"
 #include "experiments/torture/changed_service.hpp"
+#include "experiments/torture/lying_chain.hpp"
 #include "experiments/torture/lying_planning.hpp"
 #include "messages/etsi/uper.hpp"
 #include "network/network_address.hpp"
@@ -28,6 +34,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
+#include <numbers>
 #include <numeric>
 #include <string>
 #include <string_view>
@@ -50,10 +57,12 @@ constexpr auto conducting = "crossing_management";
 
 /// Three connected cars in a row on the round trip through Ulm-Lehr, a pair
 /// that comes towards them, and, if wanted, twelve more that do not talk.
+/// @param more  Of the scenario's text.
 scenario_definition scene(std::uint64_t seed, bool traffic, int seconds,
-                          std::string_view lodm) {
+                          std::string_view lodm, std::string_view more) {
   const auto start_m = 30 + static_cast<int>(seed * 37 % 400);
-  auto text = fmt::format(R"(
+  auto text =
+      fmt::format(R"(
 name = "lies"
 duration = "{}s"
 seed = {}
@@ -72,20 +81,13 @@ routes = ["round_trip_opposite"]
 placement = "convoy"
 spacing_m = 28.0
 start_m = {}.0
-[[provider]]
-name = "mec"
-position_m = [0.0, 0.0]
-area_radius_m = 3000.0
-range_m = 5000.0
-[[service]]
-name = "trajectory_planning"
 [policies]
 lodm = "{}"
 codm = "always"
 [record]
 tracks_period = "50ms"
-)",
-                          seconds, seed, start_m + 100, start_m + 40, lodm);
+{})",
+                  seconds, seed, start_m + 100, start_m + 40, lodm, more);
   constexpr auto file = SOFOF_SOURCE_DIR "/config/lies.toml";
   if (!traffic)
     return parse_scenario(text, file);
@@ -106,6 +108,43 @@ connected = false
       if (shift_m > 400)
         throw;
     }
+}
+
+constexpr auto one_service = R"(
+[[provider]]
+name = "mec"
+position_m = [0.0, 0.0]
+area_radius_m = 3000.0
+range_m = 5000.0
+[[service]]
+name = "trajectory_planning"
+)";
+
+/// @param offered  Names with commas between: of those of the chain that the
+///                 provider offers.
+std::string whole_chain(std::string_view offered) {
+  std::string names{offered};
+  for (auto at = names.find(','); at != std::string::npos;
+       at = names.find(',', at + 3))
+    names.replace(at, 1, "\",\"");
+  return fmt::format(R"(
+[traffic]
+crossings = "perceived"
+[[provider]]
+name = "mec"
+position_m = [0.0, 0.0]
+area_radius_m = 3000.0
+range_m = 5000.0
+services = ["{}"]
+[[service]]
+name = "tracking"
+[[service]]
+name = "environment_model"
+[[service]]
+name = "trajectory_planning"
+input_period = "50ms"
+)",
+                     names);
 }
 
 /// A stretch of time in which something goes on, and the longest so far.
@@ -237,17 +276,21 @@ figures measure(const scenario_definition& s, const memory_sink& lied,
   return out;
 }
 
+std::string counted(const std::map<std::string, std::size_t>& checks) {
+  std::string all;
+  for (const auto& [check, count] : checks)
+    all += fmt::format("{}{}:{}", all.empty() ? "" : ",", check, count);
+  return all.empty() ? "none" : all;
+}
+
 int drive(lie what, std::uint64_t seed, bool traffic, int seconds) {
-  const auto alone = play(scene(seed, traffic, seconds, "never"));
-  auto s = scene(seed, traffic, seconds, "always");
+  const auto alone = play(scene(seed, traffic, seconds, "never", one_service));
+  auto s = scene(seed, traffic, seconds, "always", one_service);
   for (auto& kind : s.services)
     if (kind->name() == planning)
       kind = lying_service(kind, what);
   const auto lied = play(s);
   const auto x = measure(s, lied, alone);
-  std::string checks;
-  for (const auto& [check, count] : x.checks)
-    checks += fmt::format("{}{}:{}", checks.empty() ? "" : ",", check, count);
   fmt::print(
       "lie={} seed={} traffic={} seconds={} collisions={} beyond_m={:.2f} "
       "outside_s={:.2f} braking_s={:.2f} least_accel_mps2={:.2f} "
@@ -256,7 +299,61 @@ int drive(lie what, std::uint64_t seed, bool traffic, int seconds) {
       lie_names[static_cast<std::size_t>(what)], seed, traffic ? "yes" : "no",
       seconds, x.collisions, x.beyond_m, x.outside_s, x.braking_s,
       x.least_accel_mps2, x.over_mps, x.late_s, x.back_ms, x.requests,
-      x.refused, checks.empty() ? "none" : checks);
+      x.refused, counted(x.checks));
+  return 0;
+}
+
+/// Lets a car stand in the way of the first ones, in the middle of their lane
+/// or with room to pass it: who is not told of it, or elsewhere, drives into
+/// it.
+void put_in_the_way(scenario_definition& s, std::uint64_t seed) {
+  constexpr double ahead_m = 120, to_right_m = 1.6, clear_m = 12;
+  const auto placed = place_vehicles(s);
+  const auto& first = placed.front();
+  const auto& path = first.way->path();
+  for (auto at_m = first.start_s_m + ahead_m;; at_m += clear_m) {
+    const auto here = path.at(at_m);
+    const point left{-std::sin(here.heading_rad), std::cos(here.heading_rad)};
+    const auto is_near = [&](const auto& v) {
+      return distance_m(v.way->path().at(v.start_s_m).at, here.at) < clear_m;
+    };
+    if (std::ranges::any_of(placed, is_near))
+      continue;
+    s.obstacles.push_back(
+        {.position_m = here.at + (seed % 2 == 0 ? -to_right_m : 0.0) * left,
+         .heading_deg = here.heading_rad * 180 / std::numbers::pi});
+    return;
+  }
+}
+
+/// @param what  A lie about plans, tracks or scenes, or none.
+int drive_chain(std::string_view what, std::string_view offered,
+                std::uint64_t seed, int seconds) {
+  auto s = scene(seed, true, seconds, "always", whole_chain(offered));
+  put_in_the_way(s, seed);
+  const auto of_plans = lie_of(what);
+  const auto of_chain = chain_lie_of(what);
+  for (auto& kind : s.services)
+    if (of_plans && kind->name() == planning)
+      kind = lying_service(kind, *of_plans);
+    else if (of_chain && kind->name() == liar_of(*of_chain))
+      kind = lying_chain(kind, *of_chain);
+  const auto lied = play(s);
+  const auto x = measure(s, lied, lied);
+  std::map<std::string, std::size_t> used;
+  for (const auto& c : lied.cycles)
+    used[std::string{c.session.service.view()}] +=
+        c.used && c.session.is_remote();
+  double without_plan_s = 0;
+  for (const auto& car : lied.safety)
+    without_plan_s += to_seconds(car.without_fresh_plan);
+  fmt::print("lie={} offered={} seed={} seconds={} collisions={} "
+             "beyond_m={:.2f} outside_s={:.2f} braking_s={:.2f} "
+             "least_accel_mps2={:.2f} over_mps={:.2f} without_plan_s={:.3f} "
+             "refused={} used={} checks={}\n",
+             what, offered, seed, seconds, x.collisions, x.beyond_m,
+             x.outside_s, x.braking_s, x.least_accel_mps2, x.over_mps,
+             without_plan_s, x.refused, counted(used), counted(x.checks));
   return 0;
 }
 
@@ -439,6 +536,12 @@ int main(int count, char** words) {
     if (what && mode == "drive" && count == 6)
       return drive(*what, std::strtoull(words[3], nullptr, 10),
                    std::string_view{words[4]} == "yes", std::atoi(words[5]));
+    if (mode == "chain" && count == 6
+        && (what || chain_lie_of(words[2])
+            || std::string_view{words[2]} == "none"))
+      return drive_chain(words[2], words[3],
+                         std::strtoull(words[4], nullptr, 10),
+                         std::atoi(words[5]));
     if (what && mode == "provide" && count == 8)
       return provide_lies(*what, words[3], words[4], words[5], words[6],
                           words[7]);
@@ -451,6 +554,7 @@ int main(int count, char** words) {
     return 2;
   }
   std::cerr << "usage: lies drive LIE SEED yes|no SECONDS\n"
+               "       lies chain LIE|none OFFERED SEED SECONDS\n"
                "       lies provide LIE SCENARIO HOST:PORT KEYS SECONDS OUT\n"
                "       lies conduct LIE SCENARIO AFTER_MS\n"
                "       lies time SCENARIO SECONDS\n";

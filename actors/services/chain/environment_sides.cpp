@@ -2,12 +2,12 @@
 #include "actors/services/chain/environment_sides.hpp"
 
 #include "actors/services/chain/edge_environment.hpp"
+#include "actors/services/chain/told_scenes.hpp"
 #include "actors/services/chain/track_words.hpp"
 #include "actors/services/planning/drive_words.hpp"
 #include "actors/services/planning/perceived_at.hpp"
 #include "actors/services/planning/plan_request.hpp"
 #include "actors/services/planning/planning_sides.hpp"
-#include "actors/services/planning/scene_words.hpp"
 #include "messages/v2x/encoded.hpp"
 #include "planners/scene/scene_interpreter.hpp"
 
@@ -64,34 +64,6 @@ private:
   std::string way_; // that it looks along
 };
 
-/// A scene that a provider tells holds along the vehicle's own way.
-class told_scenes final : public offloading::result_judge {
-public:
-  told_scenes(planning_world_ptr world, station_id vehicle)
-      : world_{std::move(world)}, vehicle_{vehicle} {}
-
-  offloading::judged_result judge(const messages::payload& result,
-                                  const messages::service_input& latest,
-                                  time_point now) override {
-    const auto request = latest.what.as<plan_request>();
-    const auto way = request ? world_->streets->find(request->way) : nullptr;
-    if (!way)
-      return {};
-    const auto message = result.as<messages::its_pdu>();
-    auto told = message ? read_scene_words(*message, *world_->where, now)
-                        : std::nullopt;
-    if (!told || told->from != vehicle_ || !holds(*told, now))
-      return {.useless = objection{"unreadable", 1, 0}};
-    move(told->scene,
-         way->path().project(told->position, request->from.s_m).s_m);
-    return {messages::payload::of(known_scene{std::move(told->scene), {}})};
-  }
-
-private:
-  planning_world_ptr world_;
-  station_id vehicle_;
-};
-
 class environment_in_vehicle final : public offloading::vehicle_service {
 public:
   environment_in_vehicle(planning_world_ptr world,
@@ -128,7 +100,7 @@ public:
   }
 
   std::unique_ptr<offloading::result_judge> make_judge() const override {
-    return std::make_unique<told_scenes>(world_, vehicle_.station);
+    return make_scene_reader(world_, vehicle_.station);
   }
 
 private:

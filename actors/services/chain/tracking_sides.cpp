@@ -2,10 +2,12 @@
 #include "actors/services/chain/tracking_sides.hpp"
 
 #include "actors/services/chain/edge_tracking.hpp"
+#include "actors/services/chain/told_tracks.hpp"
 #include "actors/services/chain/track_words.hpp"
 #include "actors/services/planning/perceived_at.hpp"
 #include "actors/services/planning/plan_request.hpp"
 #include "base/protocol.hpp"
+#include "planners/scene/line_of_sight.hpp"
 #include "planners/scene/object_tracker.hpp"
 
 #include <optional>
@@ -55,33 +57,11 @@ private:
   std::optional<time_point> taken_in_;
 };
 
-/// Tracks that a provider tells are the sightings of a good sensor.
-class told_tracks final : public offloading::result_judge {
-public:
-  explicit told_tracks(planning_world_ptr world)
-      : world_{std::move(world)}, model_{planners::noise_of(world_->eyes)} {}
-
-  offloading::judged_result judge(const messages::payload& result,
-                                  const messages::service_input&,
-                                  time_point now) override {
-    const auto message = result.as<messages::its_pdu>();
-    const auto told =
-        message ? read_objects(*message, *world_, now) : std::nullopt;
-    if (!told)
-      return {.useless = objection{"unreadable", 1, 0}};
-    model_.update(told->at, told->objects);
-    return {copied(model_.tracks())};
-  }
-
-private:
-  planning_world_ptr world_;
-  planners::object_tracker model_;
-};
-
 class tracking_in_vehicle final : public offloading::vehicle_service {
 public:
-  explicit tracking_in_vehicle(planning_world_ptr world)
-      : world_{std::move(world)} {}
+  tracking_in_vehicle(planning_world_ptr world,
+                      std::shared_ptr<const planners::line_of_sight> houses)
+      : world_{std::move(world)}, houses_{std::move(houses)} {}
 
   std::shared_ptr<offloading::service_function> make_function() const override {
     return std::make_shared<onboard_tracking>(*world_);
@@ -102,11 +82,12 @@ public:
   }
 
   std::unique_ptr<offloading::result_judge> make_judge() const override {
-    return std::make_unique<told_tracks>(world_);
+    return make_track_reader(world_, houses_);
   }
 
 private:
   planning_world_ptr world_;
+  std::shared_ptr<const planners::line_of_sight> houses_;
 };
 
 // -- at a provider ------------------------------------------------------------
@@ -133,9 +114,11 @@ private:
 
 } // namespace
 
-std::shared_ptr<offloading::vehicle_service>
-make_tracking_in_vehicle(planning_world_ptr world) {
-  return std::make_shared<tracking_in_vehicle>(std::move(world));
+std::shared_ptr<offloading::vehicle_service> make_tracking_in_vehicle(
+    planning_world_ptr world,
+    std::shared_ptr<const planners::line_of_sight> houses) {
+  return std::make_shared<tracking_in_vehicle>(std::move(world),
+                                               std::move(houses));
 }
 
 std::shared_ptr<offloading::provider_service>

@@ -1,0 +1,269 @@
+// Tests of the judge of scenes: what it refuses, what it makes more cautious,
+// and what it must not refuse.
+#include "planners/judges/scene_judge.hpp"
+
+#include "tests/planners/onlooker.hpp"
+
+#include <doctest/doctest.h>
+
+#include <chrono>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+using namespace sofof;
+using namespace sofof::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr auto forever = std::numeric_limits<double>::infinity();
+
+route_ptr judged_street() {
+  const road_map map{
+      "street", {}, {toy::straight("street", {0, 0}, {2000, 0})}};
+  return map.make_route("street", std::vector<std::string>{"street"}, false);
+}
+
+/// A vehicle at 200 m of a straight street, which is told its scene every
+/// 100 ms.
+struct told_drive_of_scenes {
+  route_ptr way = judged_street();
+  time_point now{look_time};
+  double speed_mps = 8;
+  driving_scene own;  ///< Of what it knows.
+  driving_scene told; ///< As it is used in the end.
+  std::vector<track> tracks;
+  std::vector<perceived_object> seen;
+  line_of_sight houses;
+  scene_judge judge;
+
+  static constexpr double at_m = 200;
+  double front_m() const { return at_m + car_params.front_m; }
+
+  static lead_vehicle lead(double rear_m, double speed_mps = 0) {
+    lead_vehicle x;
+    x.rear_s_m = rear_m;
+    x.speed_mps = speed_mps;
+    return x;
+  }
+
+  scene_verdict step(driving_scene what) {
+    own.at = what.at = now;
+    told = std::move(what);
+    const auto verdict = judge.judge({.now = now,
+                                      .way = *way,
+                                      .s_m = at_m,
+                                      .speed_mps = speed_mps,
+                                      .scene = own,
+                                      .tracks = tracks,
+                                      .look = {now,
+                                               {{at_m + 1.5, 0}, 0, 100, 360},
+                                               speed_mps,
+                                               now,
+                                               seen,
+                                               {},
+                                               seen.size()}},
+                                     houses, told);
+    now += 100ms;
+    return verdict;
+  }
+
+  std::optional<std::pair<std::string, double>>
+  go_on(double for_s, const driving_scene& what) {
+    const auto begin = now;
+    while (to_seconds(now - begin) < for_s)
+      if (const auto x = step(what).refused)
+        return std::pair{std::string{x->check}, to_seconds(now - begin)};
+    return std::nullopt;
+  }
+
+  /// A body that the vehicle knows, with what it makes of it.
+  void know(const track& x) {
+    tracks.push_back(x);
+    seen.push_back(
+        {x.centre(), x.heading_rad, x.speed_mps(), 0, x.length_m, x.width_m});
+  }
+};
+
+} // namespace
+
+TEST_CASE("a scene that is told as it is known is believed") {
+  told_drive_of_scenes x;
+  x.know(seen_track({230, 0}));
+  x.own.lead = x.lead(227.5);
+  x.own.crossings = {{215, 220, 1, 3, true, forever, 7}};
+  x.own.keep_free = {{260, 270}};
+  CHECK_FALSE(x.go_on(5, x.own));
+  CHECK(x.judge.left_s() == 1);
+}
+
+TEST_CASE("a lead that is known and not told, or told farther or faster, is "
+          "used from the first result on, and refused after a second") {
+  told_drive_of_scenes x;
+  x.know(seen_track({230, 0}));
+  x.own.lead = x.lead(227.5);
+  driving_scene lie;
+  SUBCASE("not told") {}
+  SUBCASE("farther") {
+    lie.lead = x.lead(240);
+  }
+  SUBCASE("faster") {
+    lie.lead = x.lead(227.5, 8);
+  }
+  CHECK_FALSE(x.step(lie).refused);
+  REQUIRE(x.told.lead);
+  CHECK(x.told.lead->rear_s_m == 227.5);
+  CHECK(x.told.lead->speed_mps == 0);
+  const auto end = x.go_on(3, lie);
+  REQUIRE(end);
+  CHECK(end->first == "lead");
+  CHECK(end->second < 1.3);
+}
+
+TEST_CASE("who leaves hardly room enough may be told to be passed, where it "
+          "is") {
+  told_drive_of_scenes x;
+  x.know(seen_track({230, -2.0}));
+  x.own.lead = x.lead(227.5);
+  driving_scene told;
+  told.beside = {{227.4, 232.6, -2.95, -1.0, 0, 0, 0}};
+  CHECK_FALSE(x.go_on(3, told));
+  SUBCASE("and not farther beside") {
+    told.beside[0].high_m = -1.6;
+    told.beside[0].low_m = -3.5;
+    CHECK(x.go_on(3, told));
+    CHECK(x.told.lead);
+  }
+}
+
+TEST_CASE("a body beside is told as wide as it is known") {
+  told_drive_of_scenes x;
+  x.own.beside = {{220, 225, -2.5, -0.7, 0, 0, 0}};
+  driving_scene lie;
+  SUBCASE("not at all") {}
+  SUBCASE("farther beside") {
+    lie.beside = {{220, 225, -4.0, -1.2, 0, 0, 0}};
+  }
+  CHECK_FALSE(x.step(lie).refused);
+  REQUIRE(x.told.beside.size() == 1);
+  CHECK(x.told.beside[0].high_m == -0.7);
+  const auto end = x.go_on(3, lie);
+  REQUIRE(end);
+  CHECK(end->first == "beside");
+}
+
+TEST_CASE("who crosses first is not told to cross later, or to give way") {
+  told_drive_of_scenes x;
+  x.own.crossings = {{220, 226, 0.5, 3, true, forever, 7}};
+  auto lie = x.own;
+  SUBCASE("nobody crosses") {
+    lie.crossings.clear();
+  }
+  SUBCASE("later") {
+    lie.crossings[0].enter_s = 4;
+    lie.crossings[0].leave_s = 6;
+  }
+  SUBCASE("it gives way") {
+    lie.crossings[0].goes_first = false;
+  }
+  SUBCASE("elsewhere") {
+    lie.crossings[0].from_m = 240;
+    lie.crossings[0].to_m = 246;
+  }
+  CHECK_FALSE(x.step(lie).refused);
+  CHECK(std::ranges::any_of(x.told.crossings, [](const auto& c) {
+    return c.goes_first && c.from_m == 220 && c.enter_s == 0.5;
+  }));
+  const auto end = x.go_on(3, lie);
+  REQUIRE(end);
+  CHECK(end->first == "crossing");
+}
+
+TEST_CASE("crossings are where the own map has them") {
+  told_drive_of_scenes x;
+  x.own.keep_free = {{240, 250}};
+  x.own.yields_m = {238};
+  auto lie = x.own;
+  SUBCASE("farther on") {
+    lie.keep_free[0] = {248, 258};
+  }
+  SUBCASE("nowhere") {
+    lie.keep_free.clear();
+  }
+  SUBCASE("one more") {
+    lie.keep_free.push_back({280, 290});
+  }
+  SUBCASE("nobody has priority") {
+    lie.yields_m.clear();
+  }
+  CHECK_FALSE(x.step(lie).refused);
+  CHECK(x.told.keep_free.front().from_m == 240);
+  CHECK(x.told.yields_m == x.own.yields_m);
+  const auto end = x.go_on(3, lie);
+  REQUIRE(end);
+  CHECK(end->first == "map");
+}
+
+TEST_CASE("a lead where the vehicle looks freely and sees nobody is refused") {
+  told_drive_of_scenes x;
+  driving_scene lie;
+  lie.lead = x.lead(220);
+  const auto end = x.go_on(3, lie);
+  REQUIRE(end);
+  CHECK(end->first == "added");
+  CHECK(end->second < 1.3);
+}
+
+TEST_CASE("a lead that something hides is believed") {
+  told_drive_of_scenes x;
+  x.seen = {{{212, 0}, 0, 8, 0, 5.1, 1.89}};
+  driving_scene told;
+  told.lead = x.lead(220, 8);
+  CHECK_FALSE(x.go_on(3, told));
+}
+
+TEST_CASE("who waits for what it does not know of refuses that in the end") {
+  told_drive_of_scenes x;
+  x.speed_mps = 0;
+  driving_scene told;
+  told.crossings = {{210, 216, 2, 6, true, forever, 7}};
+  CHECK_FALSE(x.go_on(11, told));
+  const auto end = x.go_on(3, told);
+  REQUIRE(end);
+  CHECK(end->first == "waits");
+}
+
+TEST_CASE("nobody is told to be impatient who is not") {
+  told_drive_of_scenes x;
+  driving_scene told;
+  told.is_impatient = true;
+  CHECK_FALSE(x.step(told).refused);
+  CHECK_FALSE(x.told.is_impatient);
+}
+
+TEST_CASE("a lead drives no faster than its kind can, and not as it never "
+          "could") {
+  told_drive_of_scenes x;
+  x.know(seen_track({230, 0}));
+  x.own.lead = x.lead(227.5);
+  auto lie = x.own;
+  SUBCASE("its speed") {
+    lie.lead = x.lead(400, 90);
+    x.own.lead.reset();
+    x.tracks.clear();
+    x.seen.clear();
+    const auto end = x.go_on(3, lie);
+    REQUIRE(end);
+    CHECK(end->first == "limits");
+  }
+  SUBCASE("its drive as it tells it") {
+    lie.lead_told = {{227.5, 0}, {300, 2}};
+    CHECK_FALSE(x.step(lie).refused);
+    CHECK(x.told.lead_told.empty());
+    CHECK(x.go_on(3, lie));
+  }
+}
