@@ -24,6 +24,7 @@ public:
   }
 
   std::string_view name() const override { return real_->name(); }
+  std::string_view follows() const override { return real_->follows(); }
   void visit_options(option_visitor& s) override { real_->visit_options(s); }
   offloading::service in(const actors::service_world& world) const override {
     auto service = real_->in(world);

@@ -42,6 +42,31 @@ codm = "always"
 tracks = false
 )";
 
+/// The same town, and the other services of a chain.
+constexpr std::string_view chained = R"(duration = "30s"
+[street_grid]
+columns = 2
+rows = 2
+[[fleet]]
+routes = ["block *"]
+[[provider]]
+area_radius_m = 500.0
+[[service]]
+name = "tracking"
+[[service]]
+name = "environment_model"
+[[service]]
+name = "trajectory_planning"
+input_period = "50ms"
+[service.planner]
+name = "lane_follow"
+[policies]
+lodm = "always"
+codm = "always"
+[record]
+tracks = false
+)";
+
 verdict some_verdict() {
   verdict v;
   v.counts[counted::driven_s] = 12.5;
@@ -87,6 +112,45 @@ TEST_CASE("a provider that lies is found out, and no promise breaks") {
       at / "run");
   CHECK(v.is_good());
   CHECK(v.counts[counted::lie] == 1); // it is not asked again for a minute
+}
+
+TEST_CASE("a provider that lies about plans that a chain makes is found out") {
+  const test::scratch at;
+  const auto v = try_here({std::string{chained} + R"([lies]
+what = "jump"
+after = "3s"
+)"},
+                          at / "run");
+  CHECK(v.is_good());
+  CHECK(v.counts[counted::lie] == 1);
+}
+
+TEST_CASE("how long each part of a chain was offloaded is counted") {
+  const test::scratch at;
+  const auto all = try_here({std::string{chained}}, at / "all");
+  CHECK(all.is_good());
+  CHECK(all.counts[counted::chain_s] == all.counts[counted::driven_s]);
+  CHECK(all.counts[counted::tracking_s] > 20);
+  CHECK(all.counts[counted::environment_s] > 20);
+  const auto alone = try_here({std::string{plain}}, at / "alone");
+  CHECK(alone.counts[counted::chain_s] == 0);
+  CHECK(alone.counts[counted::tracking_s] == 0);
+}
+
+TEST_CASE("only seeds are tried whose scenario has the words that are asked "
+          "for") {
+  const test::scratch at;
+  torture_options how;
+  how.out = at.path();
+  how.last = 4;
+  how.with = "tracking";
+  std::ostringstream console;
+  std::size_t wanted = 0;
+  for (std::uint64_t seed = how.first; seed <= how.last; ++seed)
+    wanted += test::contains(draw(seed), how.with);
+  CHECK(try_seeds(how, never, console).tried == wanted);
+  how.with = "no such words";
+  CHECK(try_seeds(how, never, console).tried == 0);
 }
 
 TEST_CASE("a lie that nobody knows is refused") {
