@@ -97,7 +97,7 @@ std::string draw_planning(const drawn_chain& chain, lottery of) {
     text += fmt::format("max_latency = \"{}ms\"\n", of.whole(3, 10) * 10);
   if (of.happens(0.15))
     text += fmt::format("max_input_age = \"{}ms\"\n", of.whole(2, 6) * 100);
-  if (of.happens(0.15))
+  if (of.happens(0.15) && !chain.is_there())
     text += "per_input = true\n";
   if (of.happens(0.15) || chain.plans_each_scene)
     text += "input_period = \"50ms\"\n";
