@@ -59,6 +59,9 @@ TEST_CASE("a scenario is made small, and shows what it showed") {
 TEST_CASE("a chain of services is taken out as a whole where it shows "
           "nothing, and stays where it does") {
   const std::string text = R"(duration = "9s"
+[street_grid]
+[[fleet]]
+routes = ["block *"]
 [[provider]]
 services = ["environment_model", "trajectory_planning"]
 returns_at = "4s"
