@@ -9,8 +9,10 @@
 #include "tests/support/scratch.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -135,6 +137,37 @@ TEST_CASE("how long each part of a chain was offloaded is counted") {
   const auto alone = try_here({std::string{plain}}, at / "alone");
   CHECK(alone.counts[counted::chain_s] == 0);
   CHECK(alone.counts[counted::tracking_s] == 0);
+}
+
+TEST_CASE("a service of a chain that gives nothing for seconds is found") {
+  const test::scratch at;
+  const auto loaded = load({std::string{chained}});
+  run(loaded, at / "run");
+  const auto breaks = [&] {
+    broken_promises all;
+    check_chain(read_finished(loaded.what, at / "run"), all);
+    return all;
+  };
+  CHECK(breaks().empty());
+  const auto silence = [&](std::string_view service, auto&& is_silent_at) {
+    const auto file = at / "run" / "protocol_trace.csv";
+    std::ifstream in{file};
+    std::string kept;
+    for (std::string line; std::getline(in, line);)
+      if (!test::contains(line, "selector")
+          || !test::contains(line, fmt::format("{}#", service))
+          || !is_silent_at(std::atof(line.c_str())))
+        kept += line + '\n';
+    in.close();
+    std::ofstream{file} << kept;
+  };
+  silence("tracking", [](double t_s) { return t_s > 10 && t_s < 12; });
+  auto found = breaks();
+  REQUIRE(found.size() == 1);
+  CHECK(found.front().promise == "chain_goes_on");
+  CHECK(test::contains(found.front().what, "tracking of station 101"));
+  silence("environment_model", [](double t_s) { return t_s > 20; });
+  CHECK(breaks().size() == 2); // one is silent to the end
 }
 
 TEST_CASE("only seeds are tried whose scenario has the words that are asked "
