@@ -27,7 +27,7 @@ int check(const std::vector<std::filesystem::path>& folders) {
   duration slack{};
   for (const auto& folder : folders)
     slack = std::max(slack, slack_of(folder));
-  trace_checker checker{slack};
+  trace_checker checker{slack, chain_of_services()};
   for (std::size_t k = 0; k < folders.size(); ++k)
     read_trace(folders[k], k, checker);
   const auto& breaches = checker.finish();

@@ -38,6 +38,7 @@ struct torture_arguments {
   std::string out = "results/torture";
   std::optional<std::uint64_t> seed;
   std::optional<std::string> seeds, part;
+  std::string with;
   std::optional<double> hours;
   unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
   bool print = false, quiet = false;
@@ -77,6 +78,7 @@ struct torture_arguments {
                                       "N, like --shard 2/7.",
                                       *part)};
     }
+    all.with = with;
     all.hours = hours;
     if (!hours && !seed && !seeds)
       all.hours = usual_hours;
@@ -134,8 +136,14 @@ void add_torture(CLI::App& app, int& exit_code) {
       command
           ->add_option("--shard", args->part, "Only the seeds of shard I of N")
           ->type_name("I/N");
-  seed->excludes(seeds)->excludes(hours)->excludes(part);
+  auto* with = command
+                   ->add_option("--with", args->with,
+                                "Only seeds whose scenario has these words, "
+                                "like \"tracking\"")
+                   ->type_name("WORDS");
+  seed->excludes(seeds)->excludes(hours)->excludes(part)->excludes(with);
   file->excludes(seed)->excludes(seeds)->excludes(hours)->excludes(part);
+  file->excludes(with);
   command
       ->add_option("-j,--jobs", args->jobs,
                    "Runs at the same time (default: one per core)")

@@ -87,6 +87,9 @@ bool source_selector::is_standby(const source& x) const {
 void source_selector::on_input(const messages::service_input& input,
                                time_point now) {
   pass(now);
+  trace_.add(step::asked,
+             messages::session_id{0, setup_.station, setup_.service.name, 0},
+             now);
   if (now - work_since_ >= work_period) {
     work_since_ = now;
     record_work();

@@ -78,7 +78,8 @@ void check_obstacles(const scenario_definition& all, const toml_file& source) {
   }
 }
 
-/// Who is part of a chain needs the one before it, and one after it.
+/// Who is part of a chain needs the one before it, and one after it; and a
+/// vehicle plans on while those before are late.
 void check_chain(const scenario_definition& all, const toml_file& source) {
   for (std::size_t k = 0; k < all.services.size(); ++k) {
     const auto& type = *all.services[k];
@@ -94,6 +95,13 @@ void check_chain(const scenario_definition& all, const toml_file& source) {
     for (const auto name : actors::service_type_names())
       if (actors::make_service_type(name)->follows() == type.name())
         needs(name, "has its results used by");
+    if (type.plans() && type.options.per_input
+        && find_service(all, type.follows()))
+      source.refuse(fmt::format("service.{}.per_input", k),
+                    fmt::format("nothing would be planned while \"{}\" gives "
+                                "no results; leave it out: planning has a "
+                                "period.",
+                                type.follows()));
   }
 }
 

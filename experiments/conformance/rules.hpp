@@ -8,7 +8,8 @@
 namespace sofof::experiments::conformance {
 
 /// What each part does, or what holds between them. V: a vehicle's requester,
-/// S: a source selector, P: a provider, M: between the parts.
+/// S: a source selector, P: a provider, M: between the parts, C: between the
+/// services of a chain.
 struct rule {
   std::string_view id;
   std::string_view sentence; ///< Without its full stop.
@@ -96,6 +97,15 @@ inline constexpr rule all_rules[]{
     {"M2", "No step of a part is missing"},
     {"M3", "A selector begins, ends and lets stand by what its requester does, "
            "and nothing else"},
+
+    {"C1", "Each input of a service that follows another one comes with a "
+           "result of that one that is used, in the same instant"},
+    {"C2", "Each used result of a service makes one input of the one that "
+           "follows it, in the same instant"},
+    {"C3", "No result of a service that follows another one is used before "
+           "its first input"},
+    {"C4", "A session that ends by a violation has none of another service of "
+           "the chain released in the same instant"},
 };
 
 /// @param id  Of a rule that there is, or this does not compile.

@@ -9,8 +9,9 @@
 
 namespace sofof::experiments::conformance {
 
-trace_checker::trace_checker(duration slack)
-    : slack_{slack}, messages_{sink()}, vehicles_{slack, sink()} {
+trace_checker::trace_checker(duration slack, services_before chain)
+    : slack_{slack}, messages_{sink()}, vehicles_{slack, sink()},
+      chains_{slack, std::move(chain), sink()} {
   assert(slack >= duration{0});
 }
 
@@ -63,6 +64,7 @@ void trace_checker::add(const messages::trace_record& x, trace_place at) {
   ++steps_;
   messages_.add(x, at);
   vehicles_.add(x, at);
+  chains_.add(x, at);
   switch (x.by) {
     case messages::trace_part::requester:
       return follow(requesters_, {at.trace, x.by, 0, x.station, {}}, x, at);
@@ -82,6 +84,7 @@ const std::vector<breach>& trace_checker::finish() {
     x.rules.finish();
   messages_.finish();
   vehicles_.finish();
+  chains_.finish();
   std::ranges::stable_sort(breaches_, {}, &breach::at);
   return breaches_;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "experiments/conformance/breach.hpp"
+#include "experiments/conformance/chain_rules.hpp"
 #include "experiments/conformance/message_rules.hpp"
 #include "experiments/conformance/provider_rules.hpp"
 #include "experiments/conformance/requester_rules.hpp"
@@ -22,7 +23,8 @@ namespace sofof::experiments::conformance {
 class trace_checker {
 public:
   /// @param slack  Of timers: zero in virtual time. ≥ 0.
-  explicit trace_checker(duration slack);
+  /// @param chain  Which services follow which; empty: none does.
+  explicit trace_checker(duration slack, services_before chain = {});
   trace_checker(const trace_checker&) = delete;
   trace_checker& operator=(const trace_checker&) = delete;
 
@@ -64,6 +66,7 @@ private:
   parts<selector_rules> selectors_;
   message_rules messages_;
   vehicle_rules vehicles_;
+  chain_rules chains_;
   std::uint64_t steps_ = 0;
 };
 

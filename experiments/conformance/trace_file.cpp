@@ -1,6 +1,7 @@
 // One row, one step.
 #include "experiments/conformance/trace_file.hpp"
 
+#include "actors/services/service_type.hpp"
 #include "base/input_error.hpp"
 #include "base/text/csv_reader.hpp"
 #include "experiments/report/run_files.hpp"
@@ -93,6 +94,15 @@ std::filesystem::path trace_file_of(const std::filesystem::path& folder) {
 duration slack_of(const std::filesystem::path& folder) {
   const auto summary = report::read_summary(folder);
   return summary && summary->clock == "virtual" ? duration{0} : usual_slack;
+}
+
+services_before chain_of_services() {
+  services_before chain;
+  for (const auto name : actors::service_type_names())
+    if (const auto before = actors::make_service_type(name)->follows();
+        !before.empty())
+      chain.emplace(name, before);
+  return chain;
 }
 
 void read_trace(const std::filesystem::path& folder, std::size_t trace,

@@ -17,6 +17,9 @@ std::filesystem::path trace_file_of(const std::filesystem::path& folder);
 /// @throws input_error when its summary is broken.
 duration slack_of(const std::filesystem::path& folder);
 
+/// @returns which of SOFOF's services follow which in a chain.
+services_before chain_of_services();
+
 /// Gives all steps of a run to a checker.
 /// @param number  Of the trace, for `trace_place`.
 /// @throws input_error with file and line when the run has no trace, or a line

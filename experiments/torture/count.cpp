@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -125,6 +126,15 @@ tally count(const finished_run& run) {
   all[counted::driven_s] = driven_s;
   all[counted::al_ilqr_s] = plans_by_al_ilqr(run.what) ? driven_s : 0;
   all[counted::offloaded_s] = run.figure("offloaded_share") * driven_s;
+  if (scenario::find_service(run.what, "tracking")) {
+    const auto at_provider_s = [&](std::string_view service) {
+      return run.figure(fmt::format("services.{}.offloaded_share", service))
+             * driven_s;
+    };
+    all[counted::chain_s] = driven_s;
+    all[counted::tracking_s] = at_provider_s("tracking");
+    all[counted::environment_s] = at_provider_s("environment_model");
+  }
   for (const auto& x : run.episodes)
     all[counted::episodes] += x.by_requester && x.first_data_s;
   const auto known = troubles_of(run);

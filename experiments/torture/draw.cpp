@@ -1,6 +1,7 @@
 // A scenario with faults: its town, its vehicles, what they run and decide.
 #include "experiments/torture/draw.hpp"
 
+#include "experiments/torture/draw_chain.hpp"
 #include "experiments/torture/draw_faults.hpp"
 #include "experiments/torture/lottery.hpp"
 #include "experiments/torture/lying_planning.hpp"
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
 namespace sofof::experiments::torture {
 
@@ -83,7 +85,7 @@ std::string draw_v2x(lottery of) {
 
 /// The dear planner plans for half of its usual horizon, and less often: what
 /// is tortured is what happens between vehicle and provider.
-std::string draw_planning(lottery of) {
+std::string draw_planning(const drawn_chain& chain, lottery of) {
   const auto is_dear = of.happens(share_of_al_ilqr);
   std::string text = "\n[[service]]\nname = \"trajectory_planning\"\n";
   const auto period_ms = of.happens(is_dear ? 0.85 : 0.6) ? 100 : 50;
@@ -95,9 +97,9 @@ std::string draw_planning(lottery of) {
     text += fmt::format("max_latency = \"{}ms\"\n", of.whole(3, 10) * 10);
   if (of.happens(0.15))
     text += fmt::format("max_input_age = \"{}ms\"\n", of.whole(2, 6) * 100);
-  if (of.happens(0.15))
+  if (of.happens(0.15) && !chain.is_there())
     text += "per_input = true\n";
-  if (of.happens(0.15))
+  if (of.happens(0.15) || chain.plans_each_scene)
     text += "input_period = \"50ms\"\n";
   text += fmt::format("[service.planner]\nname = \"{}\"\n",
                       is_dear ? "al_ilqr" : "lane_follow");
@@ -109,15 +111,25 @@ std::string draw_planning(lottery of) {
   return text;
 }
 
-std::string draw_others(lottery of) {
+/// Services that nobody drives by.
+struct drawn_others {
   std::string text;
-  if (of.happens(0.3))
-    text += "\n[[service]]\nname = \"cabin_climate\"\n";
-  if (of.happens(0.2))
-    text += fmt::format("\n[[service]]\nname = \"synthetic_load\"\n"
-                        "[service.compute]\ninput_octets = {}\n",
-                        of.whole(1, 20) * 1000);
-  return text;
+  std::vector<std::string_view> names;
+};
+
+drawn_others draw_others(lottery of) {
+  drawn_others all;
+  if (of.happens(0.3)) {
+    all.text += "\n[[service]]\nname = \"cabin_climate\"\n";
+    all.names.push_back("cabin_climate");
+  }
+  if (of.happens(0.2)) {
+    all.text += fmt::format("\n[[service]]\nname = \"synthetic_load\"\n"
+                            "[service.compute]\ninput_octets = {}\n",
+                            of.whole(1, 20) * 1000);
+    all.names.push_back("synthetic_load");
+  }
+  return all;
 }
 
 /// Providers that lie, in some runs: all but the one about crossings, which
@@ -190,15 +202,24 @@ std::string name_of(std::uint64_t seed) {
 std::string draw(std::uint64_t seed) {
   const lottery all{random_stream{seed, "torture"}};
   const auto town = draw_town(all.part("town"));
+  const auto links = all.part("chain");
+  const auto chain = draw_chain(links);
+  const auto others = draw_others(all.part("others"));
+  const auto offer = [&](std::int64_t provider) {
+    return draw_offered(
+        chain, others.names,
+        links.part(static_cast<std::uint64_t>(provider)).part("offered"));
+  };
   return fmt::format("name = \"{}\"\nduration = \"{:.0f}s\"\nseed = {}\n",
                      name_of(seed), town.length_s, seed)
          + text_of(town, all.part("streets"))
          + draw_fleets(town, all.part("fleets"))
-         + draw_providers(town, all.part("providers"))
+         + draw_providers(town, offer, all.part("providers"))
          + draw_v2x(all.part("v2x")) + draw_network(town, all.part("network"))
-         + draw_planning(all.part("planning")) + draw_others(all.part("others"))
-         + draw_policies(all.part("policies")) + draw_lies(all.part("lies"))
-         + draw_hostile(all.part("hostile")) + "\n[record]\ntracks = false\n";
+         + chain.services + draw_planning(chain, all.part("planning"))
+         + others.text + draw_policies(all.part("policies"))
+         + draw_lies(all.part("lies")) + draw_hostile(all.part("hostile"))
+         + "\n[record]\ntracks = false\n";
 }
 
 } // namespace sofof::experiments::torture

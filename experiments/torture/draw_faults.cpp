@@ -53,7 +53,7 @@ std::string draw_death(const drawn_town& town, lottery& of) {
 }
 
 std::string draw_provider(const drawn_town& town, std::int64_t number,
-                          lottery of) {
+                          const std::string& offer, lottery of) {
   const auto east_m = static_cast<double>(town.columns - 1) * town.block_m;
   const auto north_m = static_cast<double>(town.rows - 1) * town.block_m;
   // Vehicles shall offload: mostly the area is all of the town.
@@ -63,6 +63,7 @@ std::string draw_provider(const drawn_town& town, std::int64_t number,
       "\n[[provider]]\nname = \"p{}\"\nposition_m = [{:.1f}, {:.1f}]\n"
       "area_radius_m = {:.1f}\n",
       number, of.number(0, east_m, 0), of.number(0, north_m, 0), radius_m);
+  text += offer;
   if (of.happens(0.2))
     text += fmt::format("radio = \"r{}\"\n", number);
   if (of.happens(0.3)) // it alone is cut off for a while
@@ -147,11 +148,13 @@ constexpr std::array<std::pair<draw_fault, double>, 9> faults{
 
 } // namespace
 
-std::string draw_providers(const drawn_town& town, lottery of) {
+std::string draw_providers(const drawn_town& town, const draw_offer& offer,
+                           lottery of) {
   std::string text;
   const auto count = of.whole(1, 3);
   for (std::int64_t k = 1; k <= count; ++k)
-    text += draw_provider(town, k, of.part(static_cast<std::uint64_t>(k)));
+    text += draw_provider(town, k, offer(k),
+                          of.part(static_cast<std::uint64_t>(k)));
   return text;
 }
 

@@ -4,6 +4,7 @@
 #include "experiments/torture/lottery.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 namespace sofof::experiments::torture {
@@ -15,9 +16,13 @@ struct drawn_town {
   double length_s = 60; ///< Of the run.
 };
 
+/// What some provider offers: a key of its table, or nothing.
+using draw_offer = std::function<std::string(std::int64_t number)>;
+
 /// @returns one to three tables [[provider]]; some die, and some of these
 /// come back.
-std::string draw_providers(const drawn_town& town, lottery of);
+std::string draw_providers(const drawn_town& town, const draw_offer& offer,
+                           lottery of);
 
 /// @returns the tables [network] and [compute], with one to four kinds of
 /// faults.

@@ -77,8 +77,19 @@ public:
   }
 
 private:
+  /// @returns the vehicle's MCM, which a scene may come with.
+  static std::shared_ptr<const messages::its_pdu>
+  word_in(const messages::payload& what) {
+    const auto words = what.as<messages::its_pdus>();
+    if (!words)
+      return what.as<messages::its_pdu>();
+    if (words->all.empty())
+      return nullptr;
+    return {words, &words->all.front()};
+  }
+
   void hear(const messages::service_input& input, time_point now) {
-    const auto message = input.what.as<messages::its_pdu>();
+    const auto message = word_in(input.what);
     messages::etsi::mcm mcm;
     if (!message || !messages::etsi::decode(message->view(), mcm))
       return;

@@ -118,6 +118,7 @@ broken_promises check(const finished_run& run) {
   check_safety(run, all);
   check_belief(run, all);
   check_sources(run, all);
+  check_chain(run, all);
   check_ledger(run, all);
   check_sums(run, all);
   check_octets(run, all);

@@ -62,6 +62,8 @@ void check_belief(const finished_run& run, broken_promises& to);
 /// Used results are of the source in use, in order, within their limits, and
 /// without gaps.
 void check_sources(const finished_run& run, broken_promises& to);
+/// No service of a chain is without results for longer than limits admit.
+void check_chain(const finished_run& run, broken_promises& to);
 /// Both sides close each session, once, soon after each other.
 void check_ledger(const finished_run& run, broken_promises& to);
 /// Figures of the summary are those of the files.

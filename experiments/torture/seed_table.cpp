@@ -25,12 +25,18 @@ std::string table_of(const seed_log& log,
                      const std::filesystem::path& findings) {
   const auto sum = log.sum();
   const auto driven_s = sum[counted::driven_s];
+  const auto chain_s = sum[counted::chain_s];
   const auto count = [&](counted what) { return fmt::format("{}", sum[what]); };
   auto text =
       line("seeds", fmt::format("{}", log.seeds().size()))
       + line("vehicle hours", fmt::format("{:.2f}", driven_s / hour_s))
       + line("  by al_ilqr", share(sum[counted::al_ilqr_s], driven_s))
       + line("  offloaded", share(sum[counted::offloaded_s], driven_s))
+      + line("  with a chain", share(sum[counted::chain_s], driven_s))
+      + line("    tracking", share(sum[counted::tracking_s], chain_s),
+             "of these at a provider")
+      + line("    environment", share(sum[counted::environment_s], chain_s),
+             "likewise")
       + line("episodes", count(counted::episodes))
       + line("sessions", count(counted::sessions), "closed by both sides")
       + line("  late by 2 s", count(counted::late_2_s),

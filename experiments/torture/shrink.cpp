@@ -30,21 +30,25 @@ toml::node* child(toml::node& of, const step& where) {
 /// How long the run is; without it, it would be longer, not shorter.
 constexpr std::string_view length_key = "duration";
 
-/// Takes out what stands there. @returns whether anything did.
-bool take_out(toml::table& all, const way& where) {
+/// Takes out what stands there; of a list so many in a row, the last of which
+/// stands there. @returns whether it could.
+bool take_out(toml::table& all, const way& where, std::size_t count) {
   toml::node* at = &all;
   for (std::size_t k = 0; k + 1 < where.size() && at; ++k)
     at = child(*at, where[k]);
   if (!at || !child(*at, where.back()))
     return false;
   if (const auto* key = std::get_if<std::string>(&where.back())) {
-    at->as_table()->erase(*key);
-    return true;
+    if (count == 1)
+      at->as_table()->erase(*key);
+    return count == 1;
   }
+  const auto last = std::get<std::size_t>(where.back());
+  if (last + 1 < count)
+    return false;
   auto& list = *at->as_array();
-  list.erase(
-      list.begin()
-      + static_cast<std::ptrdiff_t>(std::get<std::size_t>(where.back())));
+  const auto end = list.begin() + static_cast<std::ptrdiff_t>(last + 1);
+  list.erase(end - static_cast<std::ptrdiff_t>(count), end);
   return true;
 }
 
@@ -116,14 +120,16 @@ private:
       }
   }
 
+  /// One after the other, and then two in a row: services that need each other.
   /// @returns whether anything could be taken out.
   bool take_out_any() {
     bool any = false;
-    for (const auto& where : nodes_of(best_)) {
-      auto smaller = best_;
-      if (take_out(smaller, where))
-        any |= keeps(std::move(smaller));
-    }
+    for (const std::size_t count : {1, 2})
+      for (const auto& where : nodes_of(best_)) {
+        auto smaller = best_;
+        if (take_out(smaller, where, count))
+          any |= keeps(std::move(smaller));
+      }
     return any && tries_ < most_;
   }
 

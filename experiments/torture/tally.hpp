@@ -11,13 +11,16 @@ inline constexpr double hour_s = 3600;
 
 /// All that is counted; each is a column of the log of seeds, in this order.
 enum class counted : std::size_t {
-  driven_s,    ///< Of all vehicles together,
-  al_ilqr_s,   ///< of these with this planner,
-  offloaded_s, ///< and while trajectory planning was at a provider.
-  episodes,    ///< That got data, of all services.
-  sessions,    ///< Closed by both sides,
-  late_2_s,    ///< of these by one more than 2 s later than by the other.
-  disbelieved, ///< Results of who did not lie that were not believed.
+  driven_s,      ///< Of all vehicles together,
+  al_ilqr_s,     ///< of these with this planner,
+  offloaded_s,   ///< while trajectory planning was at a provider,
+  chain_s,       ///< and with a chain of services:
+  tracking_s,    ///< of these while this one was at a provider,
+  environment_s, ///< or the environment model.
+  episodes,      ///< That got data, of all services.
+  sessions,      ///< Closed by both sides,
+  late_2_s,      ///< of these by one more than 2 s later than by the other.
+  disbelieved,   ///< Results of who did not lie that were not believed.
   // Classes of faults: incidents, of the first two messages.
   loss,
   slow,
@@ -37,12 +40,13 @@ enum class counted : std::size_t {
   refusal,
 };
 
-inline constexpr std::array<std::string_view, 23> counted_names{
-    "driven_s", "al_ilqr_s",   "offloaded_s", "episodes", "sessions",
-    "late_2_s", "disbelieved", "loss",        "slow",     "burst",
-    "outage",   "one_way",     "stall",       "copied",   "overtaken",
-    "crash",    "reboot",      "dead_car",    "lie",      "hostile",
-    "deaf_map", "full",        "refusal"};
+inline constexpr std::array<std::string_view, 26> counted_names{
+    "driven_s",      "al_ilqr_s", "offloaded_s", "chain_s",  "tracking_s",
+    "environment_s", "episodes",  "sessions",    "late_2_s", "disbelieved",
+    "loss",          "slow",      "burst",       "outage",   "one_way",
+    "stall",         "copied",    "overtaken",   "crash",    "reboot",
+    "dead_car",      "lie",       "hostile",     "deaf_map", "full",
+    "refusal"};
 
 /// What a fault class is, for people.
 struct fault_class {

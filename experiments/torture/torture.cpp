@@ -121,7 +121,9 @@ private:
   }
 
   bool is_ours(std::uint64_t seed) const {
-    return !how_.part || seed % how_.part->of == how_.part->number - 1;
+    return (!how_.part || seed % how_.part->of == how_.part->number - 1)
+           && (how_.with.empty()
+               || draw(seed).find(how_.with) != std::string::npos);
   }
 
   bool has_enough() const {

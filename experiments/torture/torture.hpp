@@ -23,9 +23,10 @@ struct torture_options {
   std::uint64_t first = 1;   ///< Seeds from here
   std::uint64_t last = 1;    ///< up to here, both included, are tried,
   std::optional<shard> part; ///< but those of other shards,
+  std::string with;          ///< and those whose scenario lacks these words,
   bool again = false;        ///< and, unless this is set, those in the log,
-  /// until the log has so many hours of vehicles, if any; of a shard its part
-  /// of them.
+  /// until the log has so many hours of vehicles of these, if any; of a shard
+  /// its part of them.
   std::optional<double> hours;
   std::size_t most_tries = 300; ///< Of making one finding small.
   recording::progress::output show = recording::progress::output::quiet;

@@ -44,6 +44,7 @@ enum class trace_step : std::uint8_t {
   violation,
   closed, ///< A session, for a reason.
   function_lost,
+  asked,     ///< An input of the client has come.
   used,      ///< A result has reached the client.
   left_out,  ///< A result has not, by its judge.
   standby,   ///< From now on this provider stands by, of several.
@@ -69,11 +70,11 @@ inline constexpr std::array trace_step_names{
     std::string_view{"peer_lost"},     std::string_view{"result_refused"},
     std::string_view{"begun"},         std::string_view{"first_data"},
     std::string_view{"violation"},     std::string_view{"closed"},
-    std::string_view{"function_lost"}, std::string_view{"used"},
-    std::string_view{"left_out"},      std::string_view{"standby"},
-    std::string_view{"called"},        std::string_view{"watched"},
-    std::string_view{"unwatched"},     std::string_view{"source"},
-    std::string_view{"shut_down"}};
+    std::string_view{"function_lost"}, std::string_view{"asked"},
+    std::string_view{"used"},          std::string_view{"left_out"},
+    std::string_view{"standby"},       std::string_view{"called"},
+    std::string_view{"watched"},       std::string_view{"unwatched"},
+    std::string_view{"source"},        std::string_view{"shut_down"}};
 
 static_assert(trace_part_names.size()
               == static_cast<std::size_t>(trace_part::provider) + 1);

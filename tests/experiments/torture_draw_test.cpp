@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <set>
+#include <string>
 #include <string_view>
+#include <vector>
 
 using namespace sofof;
 using namespace sofof::experiments::torture;
@@ -53,4 +56,27 @@ TEST_CASE(
     CAPTURE(fault);
     CHECK(draws_with(fault) > static_cast<int>(seeds) / 100);
   }
+}
+
+TEST_CASE("a third of what is drawn has a chain of services, in any split "
+          "over the providers") {
+  int chains = 0, alone = 0;
+  std::set<std::vector<std::string>> offered;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    const auto s = load({draw(seed)}).what;
+    if (!scenario::find_service(s, "tracking"))
+      continue;
+    ++chains;
+    alone += s.services.size() == 3;
+    for (const auto& p : s.providers) {
+      auto links = p.services;
+      std::erase(links, "cabin_climate");
+      std::erase(links, "synthetic_load");
+      offered.insert(links);
+    }
+  }
+  CHECK(chains > seeds / 4);
+  CHECK(chains < seeds / 2);
+  CHECK(alone > chains / 3);
+  CHECK(offered.size() == 8); // seven, and none that are named: all
 }

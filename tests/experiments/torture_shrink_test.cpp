@@ -56,6 +56,38 @@ TEST_CASE("a scenario is made small, and shows what it showed") {
   CHECK(shrink(small.text, shows, 1000).text == small.text);
 }
 
+TEST_CASE("a chain of services is taken out as a whole where it shows "
+          "nothing, and stays where it does") {
+  const std::string text = R"(duration = "9s"
+[street_grid]
+[[fleet]]
+routes = ["block *"]
+[[provider]]
+services = ["environment_model", "trajectory_planning"]
+returns_at = "4s"
+fails_at = "3s"
+[[service]]
+name = "tracking"
+[[service]]
+name = "environment_model"
+[[service]]
+name = "trajectory_planning"
+[network]
+loss = 0.1
+)";
+  REQUIRE(shows(text));
+  const auto small = loaded(shrink(text, shows, 1000).text);
+  REQUIRE(small);
+  CHECK(small->services.size() == 1);
+  const auto by_tracks = [](const std::string& changed) {
+    const auto s = loaded(changed);
+    return shows(changed) && scenario::find_service(*s, "tracking");
+  };
+  const auto chain = loaded(shrink(text, by_tracks, 1000).text);
+  REQUIRE(chain);
+  CHECK(chain->services.size() == 3);
+}
+
 TEST_CASE("no more scenarios are tried than may be") {
   std::size_t tries = 0;
   const auto count = [&tries](const std::string& text) {

@@ -10,8 +10,10 @@
 #include "tests/support/scratch.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <atomic>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -35,6 +37,31 @@ routes = ["block *"]
 area_radius_m = 500.0
 [[service]]
 name = "trajectory_planning"
+[service.planner]
+name = "lane_follow"
+[policies]
+lodm = "always"
+codm = "always"
+[record]
+tracks = false
+)";
+
+/// The same town, and the other services of a chain.
+constexpr std::string_view chained = R"(duration = "30s"
+[street_grid]
+columns = 2
+rows = 2
+[[fleet]]
+routes = ["block *"]
+[[provider]]
+area_radius_m = 500.0
+[[service]]
+name = "tracking"
+[[service]]
+name = "environment_model"
+[[service]]
+name = "trajectory_planning"
+input_period = "50ms"
 [service.planner]
 name = "lane_follow"
 [policies]
@@ -117,6 +144,76 @@ TEST_CASE("a provider that lies about tracks or scenes is found out, and no "
   const auto v = try_here({text, file}, at / "run");
   CHECK(v.is_good());
   CHECK(v.counts[counted::lie] >= 1);
+}
+
+TEST_CASE("a provider that lies about plans that a chain makes is found out") {
+  const test::scratch at;
+  const auto v = try_here({std::string{chained} + R"([lies]
+what = "jump"
+after = "3s"
+)"},
+                          at / "run");
+  CHECK(v.is_good());
+  CHECK(v.counts[counted::lie] == 1);
+}
+
+TEST_CASE("how long each part of a chain was offloaded is counted") {
+  const test::scratch at;
+  const auto all = try_here({std::string{chained}}, at / "all");
+  CHECK(all.is_good());
+  CHECK(all.counts[counted::chain_s] == all.counts[counted::driven_s]);
+  CHECK(all.counts[counted::tracking_s] > 20);
+  CHECK(all.counts[counted::environment_s] > 20);
+  const auto alone = try_here({std::string{plain}}, at / "alone");
+  CHECK(alone.counts[counted::chain_s] == 0);
+  CHECK(alone.counts[counted::tracking_s] == 0);
+}
+
+TEST_CASE("a service of a chain that gives nothing for seconds is found") {
+  const test::scratch at;
+  const auto loaded = load({std::string{chained}});
+  run(loaded, at / "run");
+  const auto breaks = [&] {
+    broken_promises all;
+    check_chain(read_finished(loaded.what, at / "run"), all);
+    return all;
+  };
+  CHECK(breaks().empty());
+  const auto silence = [&](std::string_view service, auto&& is_silent_at) {
+    const auto file = at / "run" / "protocol_trace.csv";
+    std::ifstream in{file};
+    std::string kept;
+    for (std::string line; std::getline(in, line);)
+      if (!test::contains(line, "selector")
+          || !test::contains(line, fmt::format("{}#", service))
+          || !is_silent_at(std::atof(line.c_str())))
+        kept += line + '\n';
+    in.close();
+    std::ofstream{file} << kept;
+  };
+  silence("tracking", [](double t_s) { return t_s > 10 && t_s < 12; });
+  auto found = breaks();
+  REQUIRE(found.size() == 1);
+  CHECK(found.front().promise == "chain_goes_on");
+  CHECK(test::contains(found.front().what, "tracking of station 101"));
+  silence("environment_model", [](double t_s) { return t_s > 20; });
+  CHECK(breaks().size() == 2); // one is silent to the end
+}
+
+TEST_CASE("only seeds are tried whose scenario has the words that are asked "
+          "for") {
+  const test::scratch at;
+  torture_options how;
+  how.out = at.path();
+  how.last = 4;
+  how.with = "tracking";
+  std::ostringstream console;
+  std::size_t wanted = 0;
+  for (std::uint64_t seed = how.first; seed <= how.last; ++seed)
+    wanted += test::contains(draw(seed), how.with);
+  CHECK(try_seeds(how, never, console).tried == wanted);
+  how.with = "no such words";
+  CHECK(try_seeds(how, never, console).tried == 0);
 }
 
 TEST_CASE("a lie that nobody knows is refused") {

@@ -22,7 +22,8 @@ end: do
   :: atomic { left > 0 && alive[p] && heard[p] && runs[p] == 0 && !(offers & BIT(boot[p])) -> FAULT; offers = offers | BIT(boot[p]) }
 #endif
   /* an offer that SR would act on */
-  :: atomic { alive[p] && inside[p] && heard[p] && runs[p] == 0 && !(offers & BIT(boot[p])) && at[boot[p]] == NONE &&
+  :: atomic { alive[p] && inside[p] && heard[p] && MAY_OFFLOAD && GETS_INPUTS &&
+              runs[p] == 0 && !(offers & BIT(boot[p])) && at[boot[p]] == NONE &&
               !HAS_OPEN(p) && !IS_MOVING && !((cool | doubted) & BIT(boot[p])) && !(POLICY == ALWAYS && IS_REMOTE) &&
               (refusals | requests[0] | requests[1] | ends_up | ends_down) == 0 && len(to_rm) == 0 && len(to_sr) == 0 && !exhausted &&
               (POLICY != HANDOVER || !IS_REMOTE || preferred == p) && (POLICY != ANYTHING || !(offered & BIT(boot[p])) || left > 0) ->
@@ -59,7 +60,7 @@ end: do
            late_results = (mute[p] == OLD -> late_results | BIT(r) : late_results)
         :: else fi; r = 0 }
   /* a result in every period, unless it stands by; where it changes anything */
-  :: atomic { alive[p] && runs[p] != 0 && fed[p] && !called[p] && !mute[p] && !(results & BIT(runs[p])) && len(to_rm) < 3 &&
+  :: atomic { alive[p] && runs[p] != 0 && fed[p] && !called[p] && !mute[p] && GETS_INPUTS && !(results & BIT(runs[p])) && len(to_rm) < 3 &&
       ((!HAS(runs[p]) && (known & BIT(BOOT(runs[p]))) && !(ends_up & BIT(runs[p])) && !(acceptances & BIT(runs[p]))) ||
         (HAS(runs[p]) && (sources & BIT(runs[p])) && !(in_use & BIT(runs[p])) && !(to_rm??[RESULT, eval(runs[p])])) ||
         (HAS(runs[p]) && (in_use & BIT(runs[p])) && STANDS(runs[p]) && !(calls & BIT(runs[p])) && !(to_rm??[RESULT, eval(runs[p])]))) ->

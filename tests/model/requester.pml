@@ -89,7 +89,9 @@ inline decide(o, first, second, stands, k) { /* requester::decide */
 
 /* Whether an answer to the open request can still come. */
 #define ANSWERS1(b, i) ((acceptances & BIT((b) * MOST + i)) && answers[(b) * MOST + i] == open_request[b])
-#if MOST > 4
+#if MOST > 5
+#define ANSWERS(b) (ANSWERS1(b, 1) || ANSWERS1(b, 2) || ANSWERS1(b, 3) || ANSWERS1(b, 4) || ANSWERS1(b, 5) || ANSWERS1(b, 6))
+#elif MOST > 4
 #define ANSWERS(b) (ANSWERS1(b, 1) || ANSWERS1(b, 2) || ANSWERS1(b, 3) || ANSWERS1(b, 4) || ANSWERS1(b, 5))
 #elif MOST > 3
 #define ANSWERS(b) (ANSWERS1(b, 1) || ANSWERS1(b, 2) || ANSWERS1(b, 3) || ANSWERS1(b, 4))
@@ -176,6 +178,9 @@ end: do
      :: m == FIRST ->
         if :: (HAS(r) && at[b] == STARTING) -> at[b] = REMOTE; leave_unwanted(k) :: else fi
      :: m == VIOLATION -> /* requester::on_violation, leave_beside */
+#if CHAIN
+        if :: (MUTANT == 35 && HAS(r) && !GETS_INPUTS) -> doubted = doubted | BIT(b) :: else fi;
+#endif
         if :: (HAS(r) && MUTANT != 16) ->
               if :: at[b] == REMOTE -> k = 0;
                  do :: k < BOOTS -> if :: (k != b && at[k] == REMOTE) -> sr_end(k, 1, 1) :: else fi; k++

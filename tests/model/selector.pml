@@ -16,7 +16,10 @@ inline rm_end(r, k) { /* on_end */
      if :: (in_use & BIT(r)) -> in_use = in_use & ~BIT(r);
            if :: in_use == 0 -> if :: MUTANT != 4 -> to_wd!DISARM(r) :: else fi;
                  assert(!own_runs && client_remote);
-                 own_runs = (MUTANT != 15); client_remote = (MUTANT == 23)
+                 own_runs = (MUTANT != 15); client_remote = (MUTANT == 23);
+#if CHAIN
+                 if :: MUTANT == 32 -> OTHER.own_runs_ = 1 :: else fi
+#endif
               :: else -> tell_roles(k);
                  if :: (watched == r && MUTANT != 3) -> k = 1;
                        do :: ((in_use & BIT(k)) && !STANDS(k)) -> break
@@ -68,7 +71,7 @@ end: do
 }
 
 /* == WD: watchdog.cpp ============================================================== */
-#define GOES_ON1(p) (alive[p] && !mute[p] && runs[p] != 0 && fed[p] && (in_use & BIT(runs[p])))
+#define GOES_ON1(p) (alive[p] && !mute[p] && runs[p] != 0 && fed[p] && GETS_INPUTS && (in_use & BIT(runs[p])))
 #define GOES_ON ((results & in_use) || GOES_ON1(0) || GOES_ON1(1))
 proctype WD(byte v) {
   byte r; mtype m;
@@ -78,7 +81,7 @@ end: do
         :: m == LATE -> if :: (armed == r && r != 0) -> to_sr!VIOLATION(r); armed = 0 :: else fi
         :: m == DISARM -> if :: armed == r -> armed = 0 :: else fi
      fi; m = 0; r = 0; CHECK }
-  :: atomic { MUTANT != 13 && len(to_sr) < 6 && armed != 0 && len(to_wd) == 0 && (left > 0 || (!GOES_ON && len(to_rm) == 0 && len(to_sr) == 0)) ->
+  :: atomic { MUTANT != 13 && MAY_COME_HOME && len(to_sr) < 6 && armed != 0 && len(to_wd) == 0 && (left > 0 || (!GOES_ON && len(to_rm) == 0 && len(to_sr) == 0)) ->
      if :: (GOES_ON || len(to_rm) != 0 || len(to_sr) != 0) -> FAULT :: else fi; to_sr!VIOLATION(armed); armed = 0; CHECK }
   od
 }

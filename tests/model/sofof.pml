@@ -24,6 +24,10 @@
 #ifndef PROVIDERS
 #define PROVIDERS 1
 #endif
+#ifndef CHAIN
+#define CHAIN 0    /* of VEHICLES: two services of one, the second of which is fed with
+                      results of the first. Bits of it: which may be offloaded. */
+#endif
 #define ALWAYS 0   /* where it runs, else whoever offers */
 #define ANYTHING 1 /* any provider, two, a standby, home: as a policy may decide */
 #define TWO 2      /* two at once; the second stands by if STANDBY */
@@ -118,11 +122,11 @@ typedef vehicle {
   byte offers;                /* of boots */
   short refusals;             /* of requests */
   short requests[2];          /* to providers */
-  short acceptances, inputs, calls, results, late_results, bad_results; /* of sessions */
+  short acceptances, inputs, calls, results_, late_results, bad_results; /* of sessions */
   short ends_up, ends_down;   /* service_end, of sessions */
   short digests;              /* that name this session */
   short empty_digests;        /* that name none; the latest of anybody was this one */
-  byte deaths;                /* of providers: the vehicle's system tells it */
+  byte deaths_;               /* of providers: the vehicle's system tells it */
   byte asked[REQUESTS + 1];   /* the boot that a request is for */
   byte answers[SESSIONS + 1]; /* the request that a session answers */
   /* -- SR */
@@ -134,14 +138,14 @@ typedef vehicle {
   short closed_here, accepted_here;
   byte failed, lied;          /* promised: boots that cool down, providers not asked again */
   /* -- RM */
-  short sources, in_use, told_to_stand_by;
+  short sources, in_use_, told_to_stand_by;
   byte standby, watched;
-  bool own_runs, client_remote;
+  bool own_runs_, client_remote;
   /* -- WD */
   byte armed;
   /* -- SP: the record of the station, by provider */
-  byte seen_request[2], runs[2], mute[2], told[2];
-  bool inside[2], heard[2], fed[2], called[2], was_inside[2];
+  byte seen_request_[2], runs_[2], mute_[2], told[2];
+  bool inside_[2], heard[2], fed_[2], called[2], was_inside[2];
   short started, closed_there, died;
 };
 vehicle V[VEHICLES];
@@ -151,14 +155,14 @@ vehicle V[VEHICLES];
 #define acceptances V[v].acceptances
 #define inputs V[v].inputs
 #define calls V[v].calls
-#define results V[v].results
+#define results V[v].results_
 #define late_results V[v].late_results
 #define bad_results V[v].bad_results
 #define ends_up V[v].ends_up
 #define ends_down V[v].ends_down
 #define digests V[v].digests
 #define empty_digests V[v].empty_digests
-#define deaths V[v].deaths
+#define deaths V[v].deaths_
 #define asked V[v].asked
 #define answers V[v].answers
 #define known V[v].known
@@ -178,20 +182,20 @@ vehicle V[VEHICLES];
 #define failed V[v].failed
 #define lied V[v].lied
 #define sources V[v].sources
-#define in_use V[v].in_use
+#define in_use V[v].in_use_
 #define told_to_stand_by V[v].told_to_stand_by
 #define standby V[v].standby
 #define watched V[v].watched
-#define own_runs V[v].own_runs
+#define own_runs V[v].own_runs_
 #define client_remote V[v].client_remote
 #define armed V[v].armed
-#define seen_request V[v].seen_request
-#define runs V[v].runs
-#define mute V[v].mute
+#define seen_request V[v].seen_request_
+#define runs V[v].runs_
+#define mute V[v].mute_
 #define told V[v].told
-#define inside V[v].inside
+#define inside V[v].inside_
 #define heard V[v].heard
-#define fed V[v].fed
+#define fed V[v].fed_
 #define called V[v].called
 #define was_inside V[v].was_inside
 #define started V[v].started
@@ -220,10 +224,27 @@ chan wd_mail[VEHICLES] = [8] of {mtype, byte};
 #define IS_REMOTE (at[0] == REMOTE || at[1] == REMOTE || at[2] == REMOTE)
 #define STANDS(r) (standby == BOOT(r) + 1 && (in_use & ~BIT(r)))
 #define RUNS(r) (alive[PROVIDER(BOOT(r))] && runs[PROVIDER(BOOT(r))] == (r))
-#define GIVES(r) (RUNS(r) && !mute[PROVIDER(BOOT(r))])
+#define GIVES(r) (RUNS(r) && !mute[PROVIDER(BOOT(r))] && GETS_INPUTS)
 #define MAY_ASK(b) ((known & BIT(b)) && (offered & BIT(b)) && !((cool | doubted) & BIT(b)) && open_request[b] == 0 && at[b] == NONE)
 #define IN_VIEW(b) ((b) < BOOTS && (at[b] != NONE || MAY_ASK(b)))
 #define FAULT left--
+/* A chain: chain_stage.cpp makes inputs of the second service of results of the first,
+ * whoever gives them. What is asked anew has waited for a cool-down, and by then a first
+ * one that had fallen silent has come home. */
+#if CHAIN
+#define MAY_OFFLOAD ((CHAIN & BIT(v)) != 0)
+#define FIRST_GOES_ON(p) (alive[p] && !V[0].mute_[p] && V[0].runs_[p] != 0 && V[0].fed_[p] && (V[0].in_use_ & BIT(V[0].runs_[p])))
+#define FIRST_GIVES ((MUTANT != 30 && V[0].own_runs_) || \
+     (MUTANT != 31 && ((V[0].results_ & V[0].in_use_) || FIRST_GOES_ON(0) || FIRST_GOES_ON(1))))
+#define GETS_INPUTS (v == 0 || FIRST_GIVES)
+#define MAY_COME_HOME ((MUTANT != 33 || v == 1 || V[1].in_use_ == 0) && \
+     ((MUTANT != 33 && MUTANT != 34) || v == 0 || FIRST_GIVES))
+#define OTHER V[1 - v]
+#else
+#define MAY_OFFLOAD 1
+#define GETS_INPUTS 1
+#define MAY_COME_HOME 1
+#endif
 
 inline pick(set, x) { /* any member */
   x = 0;
@@ -288,13 +309,16 @@ end: do
         assert((in_use != 0) == client_remote && client_remote == !own_runs);
         assert((armed != 0) == (in_use != 0));
         assert(in_use == 0 || GOES_ON); /* what is used gives results */
+#if CHAIN
+        assert(GETS_INPUTS); /* so does what is at home */
+#endif
 #if AT_PROVIDER
         /* what runs there the vehicle has */
         assert(!alive[0] || runs[0] == 0 || HAS(runs[0]));
         assert(!alive[1] || runs[1] == 0 || HAS(runs[1]));
 #endif
 #if POLICY != ANYTHING
-        assert(in_use != 0 || !(HELPS(0) || HELPS(1)) || exhausted); /* it offloads where it can */
+        assert(in_use != 0 || !(HELPS(0) || HELPS(1)) || !MAY_OFFLOAD || exhausted); /* it offloads where it can */
 #endif
         v++
      :: else -> break

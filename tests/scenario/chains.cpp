@@ -118,7 +118,7 @@ TEST_CASE("in every split of the chain over one provider what is offered is "
   }
 }
 
-TEST_CASE("a chain with a gap is refused") {
+TEST_CASE("a chain with a gap is refused, and one whose planner waits") {
   const auto refused = [](const std::string& services) {
     try {
       scenario::parse_scenario(std::string{chain_head} + services,
@@ -136,4 +136,8 @@ TEST_CASE("a chain with a gap is refused") {
             .find("gets its inputs from the service \"tracking\"")
         != std::string::npos);
   CHECK(refused(three_services).empty());
+  CHECK(refused(three_services + std::string{"per_input = true\n"})
+            .find("nothing would be planned while \"environment_model\"")
+        != std::string::npos);
+  CHECK(refused(planning + "per_input = true\n").empty());
 }
