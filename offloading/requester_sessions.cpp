@@ -166,7 +166,7 @@ void requester::look_ahead(service_state& service, time_point now) {
     return;
   const auto path = setup_.path_ahead(ego_);
   const auto known = service.views(providers_, std::nullopt, now);
-  if (setup_.policy->foresees_home(context_of(service, known, path, now)))
+  if (setup_.policy->foresees_home(context_of(service, known, {}, path, now)))
     port_.foresee_home(service.service.name);
 }
 

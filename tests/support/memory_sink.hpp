@@ -21,6 +21,10 @@ struct memory_sink final : messages::record_sink {
   std::vector<messages::trip_record> trips;
   std::vector<messages::claim_record> claims;
   std::vector<messages::scene_record> scenes;
+  std::vector<messages::look_record> looks;
+  std::vector<messages::stage_record> stages;
+  std::vector<messages::response_record> responses;
+  std::vector<messages::prediction_record> predictions;
   std::vector<messages::plan_switch_record> plan_switches;
   std::vector<messages::air_record> air;
   std::vector<messages::trace_record> steps;
@@ -46,6 +50,14 @@ struct memory_sink final : messages::record_sink {
             [this](const messages::trip_record& r) { trips.push_back(r); },
             [this](const messages::claim_record& r) { claims.push_back(r); },
             [this](const messages::scene_record& r) { scenes.push_back(r); },
+            [this](const messages::look_record& r) { looks.push_back(r); },
+            [this](const messages::stage_record& r) { stages.push_back(r); },
+            [this](const messages::response_record& r) {
+              responses.push_back(r);
+            },
+            [this](const messages::prediction_record& r) {
+              predictions.push_back(r);
+            },
             [this](const messages::plan_switch_record& r) {
               plan_switches.push_back(r);
             },
