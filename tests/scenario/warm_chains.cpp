@@ -22,7 +22,7 @@ const std::filesystem::path light_chain =
 scenario::scenario_definition falling_silent(bool is_warm) {
   std::vector<std::string> changes{
       "duration=60s", "policies.lodm=always", "policies.codm=always",
-      "provider.mec.area_radius_m=1000.0",
+      "provider.mec.area_radius_m=3000.0",
       "network.outage=[{from=\"20s\",to=\"22s\"},{from=\"40s\",to=\"42s\"}]"};
   if (is_warm)
     for (const auto* name :
@@ -46,6 +46,8 @@ TEST_CASE("when the server of a warm chain falls silent, the chain at home "
     CAPTURE(x.station);
     CAPTURE(to_seconds(x.at.time_since_epoch()));
     CAPTURE(x.reason);
+    if (x.reason == "shutdown")
+      continue; // the run is over
     REQUIRE(x.first);
     CHECK(*x.first <= 50ms);
     CHECK(x.plan.tracks_apart_m < 0.01);
