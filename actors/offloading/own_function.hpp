@@ -2,6 +2,7 @@
 #pragma once
 
 #include "actors/offloading/service_requester.hpp"
+#include "channel/preemptive_core.hpp"
 #include "offloading/requester.hpp"
 #include "offloading/service_cycle.hpp"
 
@@ -10,10 +11,10 @@
 namespace sofof::actors {
 
 /// @returns the cycle of the vehicle's own function of a service. In virtual
-/// time it takes a drawn run time.
-offloading::cycle_setup
-own_function(const requester_actor_setup& vehicle,
-             const offloading::onboard_service& service);
+/// time it takes a drawn run time, of the core that it shares, if it does.
+offloading::cycle_setup own_function(const requester_actor_setup& vehicle,
+                                     const offloading::onboard_service& service,
+                                     const channel::core_seat& seat = {});
 
 /// @returns what the rules of a vehicle's requester are made of.
 offloading::requester_setup

@@ -1,6 +1,7 @@
 // What one cycle of a function costs a vehicle: on board, and offloaded.
 #pragma once
 
+#include "base/core_order.hpp"
 #include "base/options/option_visitor.hpp"
 #include "base/time.hpp"
 
@@ -17,13 +18,14 @@ struct computer_options {
                                   ///< studies of offloading, not measured.
   double transmit_power_w = 0.2;  ///< p, 23 dBm.
   double uplink_mbps = 20;        ///< r, that it gets of the air.
+  /// How the vehicle's own functions share its cores in virtual time; by
+  /// default each has one of its own.
+  std::optional<core_order> scheduling;
+  std::int64_t cores = 1; ///< That they share.
+  /// Whether a vehicle is refused that cannot take all its functions back.
+  bool strict = false;
 
-  void visit_options(option_visitor& s) {
-    s.field("clock_ghz", clock_ghz, {0.1, 100});
-    s.field("capacitance_js2", capacitance_js2, {0, 1e-20});
-    s.field("transmit_power_w", transmit_power_w, {0, 100});
-    s.field("uplink_mbps", uplink_mbps, {0.001, 1e6});
-  }
+  void visit_options(option_visitor& s);
 };
 
 /// What clocks are compared with: the run times of services are those at this
@@ -53,6 +55,9 @@ struct cycle_options {
 /// @returns a provider's computing time of a cycle, in that of a cycle which
 /// takes `usual_run_time` on board.
 double demand_of(const cycle_options& cycle);
+
+/// @returns what no drawn run time of a cycle on board exceeds.
+duration longest_run_time(const cycle_options& cycle);
 
 /// Time from the begin of a cycle on, and energy out of the vehicle's battery.
 struct cycle_cost {
