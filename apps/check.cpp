@@ -2,6 +2,7 @@
 #include "apps/command.hpp"
 #include "apps/scenario_arguments.hpp"
 #include "scenario/schedulability.hpp"
+#include "scenario/vehicle_schedule.hpp"
 #include "world/roads/lane_overlaps.hpp"
 #include "world/roads/sharp_bends.hpp"
 #include "world/vehicle/vehicle.hpp"
@@ -62,6 +63,18 @@ void tell_responses(const scenario::scenario_definition& s) {
   }
 }
 
+/// Likewise of vehicles whose functions share cores.
+void tell_own_responses(const scenario::scenario_definition& s) {
+  for (std::size_t f = 0; f < s.fleets.size(); ++f) {
+    const auto schedule = scenario::schedule_at_home(s, f);
+    if (!schedule)
+      continue;
+    std::cout << scenario::to_comment(*schedule);
+    if (const auto warning = scenario::warning_of(*schedule); !warning.empty())
+      std::cerr << "sofof: " << warning << '\n';
+  }
+}
+
 } // namespace
 
 void add_check(CLI::App& app, int&) {
@@ -77,6 +90,7 @@ void add_check(CLI::App& app, int&) {
     warn_of_overlaps(s);
     std::cout << scenario::to_toml(s);
     tell_responses(s);
+    tell_own_responses(s);
   });
 }
 

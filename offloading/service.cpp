@@ -42,11 +42,11 @@ world::cycle_cost offloaded_cost(const world::computer_options& computer,
 
 duration worst_response(const service_options& options) {
   const auto& limits = options.limits;
-  if (limits.max_input_age == duration::max())
+  const auto own = options.own_response.value_or(options.compute.run_time_max);
+  if (limits.max_input_age == duration::max() || own == duration::max())
     return duration::max();
   assert(limits.max_input_age > duration{0});
-  return limits.max_input_age + limits.max_interarrival
-         + options.compute.run_time_max;
+  return limits.max_input_age + limits.max_interarrival + own;
 }
 
 messages::service_input

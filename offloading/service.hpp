@@ -31,6 +31,10 @@ struct service_options {
   /// along: offloading/warm_standby.
   duration warm_standby{};
   world::cycle_options compute; ///< What a cycle asks of who computes it.
+  /// The longest time from a cycle's start to its result on board, where
+  /// functions share the vehicle's cores, duration::max() if nothing limits it;
+  /// else a cycle takes its run time. No option: it follows from those of all.
+  std::optional<duration> own_response;
 
   void visit_options(option_visitor& s) {
     using namespace std::chrono_literals;
@@ -64,8 +68,9 @@ world::cycle_cost offloaded_cost(const world::computer_options& computer,
 /// @returns the longest time from what a vehicle sees to the first result that
 /// depends on it while a provider computes the service, as long as limits are
 /// kept and until the own function has taken over when they are not:
-/// max_input_age + max_interarrival + the longest run time of the own function;
-/// duration::max() if nothing limits the age of inputs.
+/// max_input_age + max_interarrival + the longest run time of the own function,
+/// or what it takes on shared cores; duration::max() if nothing limits the age
+/// of inputs, or that.
 /// @param options  With run times as on the vehicle's computer.
 duration worst_response(const service_options& options);
 

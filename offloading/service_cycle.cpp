@@ -75,6 +75,8 @@ void service_cycle::on_input(const messages::service_input& input,
 
 void service_cycle::on_timer(std::uint64_t number, time_point now) {
   assert(number <= timer_);
+  if (number == completion)
+    return look_after(now);
   if (number != timer_)
     return;
   assert(state_ == messages::lifecycle_state::active);
@@ -86,7 +88,8 @@ void service_cycle::on_timer(std::uint64_t number, time_point now) {
 // While the cycle is active a timer is under way, unless it waits for inputs.
 bool service_cycle::is_consistent() const {
   const auto is_active = state_ == messages::lifecycle_state::active;
-  return has_timer_ == (is_active && !waits_for_input());
+  return has_timer_ == (is_active && !waits_for_input())
+         && (!is_due_ || (under_way_ && is_active));
 }
 
 bool service_cycle::waits_for_input() const {
@@ -108,6 +111,7 @@ void service_cycle::begin(time_point now) {
 void service_cycle::stop_timer() {
   ++timer_;
   has_timer_ = false;
+  is_due_ = false;
 }
 
 void service_cycle::await_next(time_point now) {
@@ -118,6 +122,10 @@ void service_cycle::await_next(time_point now) {
 void service_cycle::run(time_point now, bool is_besides) {
   assert(state_ == messages::lifecycle_state::active);
   const auto is_called = is_besides || waits_for_input();
+  if (under_way_) {
+    is_due_ = true;
+    return;
+  }
   const auto on_grid = grid_number(now);
   // A call off the grid may run one cycle more than the grid has by then.
   const auto cycle =
@@ -136,16 +144,37 @@ void service_cycle::run(time_point now, bool is_besides) {
   const auto work = setup_.finish(now, cycle);
   assert(work.computing >= duration{0});
   assert(work.done - work.computing >= now);
-  port_.deliver_at(work.done,
-                   {.session = setup_.session,
-                    .cycle = cycle,
-                    .created = setup_.per_input ? newest_.at : now,
-                    .what = std::move(output.what),
-                    .about = std::move(output.about),
-                    .timing = {.input_at = newest_.at,
-                               .up = newest_.up,
-                               .queue = work.done - work.computing - now,
-                               .computing = work.computing}});
+  messages::service_result result{
+      .session = setup_.session,
+      .cycle = cycle,
+      .created = setup_.per_input ? newest_.at : now,
+      .what = std::move(output.what),
+      .about = std::move(output.about),
+      .timing = {.input_at = newest_.at,
+                 .up = newest_.up,
+                 .queue = work.done - work.computing - now,
+                 .computing = work.computing}};
+  if (!setup_.review)
+    return port_.deliver_at(work.done, std::move(result));
+  under_way_ = std::move(result);
+  begun_ = now;
+  port_.wake_at(work.done, completion);
+}
+
+/// The cycle under way is done, or something more urgent came in between.
+void service_cycle::look_after(time_point now) {
+  assert(under_way_);
+  const auto done = setup_.review(now);
+  if (done > now)
+    return port_.wake_at(done, completion);
+  auto result = std::move(*under_way_);
+  under_way_.reset();
+  result.timing.queue = now - begun_ - result.timing.computing;
+  assert(result.timing.queue >= duration{0});
+  port_.deliver_at(now, std::move(result));
+  if (std::exchange(is_due_, false))
+    run(now);
+  assert(is_consistent());
 }
 
 std::uint64_t service_cycle::grid_number(time_point t) const {

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 
 namespace sofof::offloading {
 
@@ -22,6 +23,10 @@ struct cycle_setup {
   /// a model of the computer in virtual time; what the clock says, where time
   /// is real and the cycle has been computed by then.
   std::function<cycle_work(time_point start, std::uint64_t cycle)> finish;
+  /// If there is one, what `finish` says may become later, as where functions
+  /// interrupt each other, and the function has one cycle at a time.
+  /// @returns when the cycle under way is done, as far as is known now.
+  std::function<time_point(time_point now)> review;
   /// Whether the first cycle waits for its phase too, and is not run at once.
   bool keeps_phase = false;
   /// Whether a cycle is run for each input, and in no period without one.
@@ -56,6 +61,9 @@ public:
 ///   virtual time (`finish` says when each is done, a wait for a worker
 ///   included); where time is real, it does, and what the grid had meanwhile
 ///   is left out. Inputs are never queued.
+/// * Where what `finish` says may become later (`review`), a function has one
+///   cycle at a time: the next one begins when that is done, from the newest
+///   input then.
 /// * Cycles are numbered by the grid, so that their noise does not depend on
 ///   when the service was started; after two in one period they are one ahead.
 ///
@@ -79,12 +87,16 @@ public:
   messages::lifecycle_state state() const { return state_; }
 
 private:
+  /// The timer of the cycle under way; those of the next one begin with 1.
+  static constexpr std::uint64_t completion = 0;
+
   bool is_consistent() const;
   bool waits_for_input() const;
   void begin(time_point now);
   void stop_timer();
   void await_next(time_point now);
   void run(time_point now, bool is_besides = false);
+  void look_after(time_point now);
 
   std::uint64_t grid_number(time_point t) const;
 
@@ -96,6 +108,9 @@ private:
   bool has_timer_ = false;
   std::uint64_t after_any_ = 0;      // number after the latest cycle,
   std::uint64_t after_off_grid_ = 0; // and after the latest off the grid
+  std::optional<messages::service_result> under_way_; // if there is a `review`
+  time_point begun_;                                  // when that was
+  bool is_due_ = false; // the next cycle, once that is done
 };
 
 } // namespace sofof::offloading

@@ -19,6 +19,7 @@
 #include "messages/broadcast/decode_broadcast.hpp"
 #include "scenario/channel_oracle.hpp"
 #include "scenario/placement.hpp"
+#include "scenario/vehicle_schedule.hpp"
 
 #include <caf/exit_reason.hpp>
 #include <caf/send.hpp>
@@ -103,6 +104,17 @@ world::sensor_params noisier(world::sensor_params one,
   worsen(one.speed_noise_mps, other.speed_noise_mps);
   worsen(one.heading_noise_rad, other.heading_noise_rad);
   return one;
+}
+
+/// Gives the functions of one vehicle the cores that they share.
+void share_cores(std::vector<actors::client_service>& services,
+                 const vehicle_schedule& schedule) {
+  const auto seats = seats_of(schedule);
+  for (std::size_t k = 0; k < services.size(); ++k) {
+    services[k].seat = seats[k];
+    services[k].service.options.own_response =
+        schedule.functions[k].at_most.value_or(duration::max());
+  }
 }
 
 std::vector<oriented_box> obstacles(const scenario_definition& s) {
@@ -394,6 +406,8 @@ private:
                  ->spawn_client({sys, car, station, road, recorder, place})
                  .actor;
            }});
+    if (const auto at_home = schedule_at_home(s_, v.fleet))
+      share_cores(services, *at_home);
     return [&sys = sys_, station = v.station, way = v.way, services, chain,
             lodm = s_.policies.lodm, recorder = world_.recorder,
             noise = noise_of(s_, "vehicle").part(v.station.value()),

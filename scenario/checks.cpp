@@ -3,6 +3,7 @@
 
 #include "base/options/spelling.hpp"
 #include "scenario/placement.hpp"
+#include "scenario/vehicle_schedule.hpp"
 
 #include <fmt/format.h>
 
@@ -175,6 +176,22 @@ void check_placement(const scenario_definition& all, const toml_file& source) {
   }
 }
 
+void check_own_cores(const scenario_definition& all, const toml_file& source) {
+  for (std::size_t f = 0; f < all.fleets.size(); ++f) {
+    const auto schedule = schedule_at_home(all, f);
+    if (!schedule)
+      continue;
+    if (all.vehicle_host.cores > 0)
+      source.refuse(fmt::format("fleet.{}.compute.scheduling", f),
+                    "says that vehicles have cores of their own, and "
+                    "[vehicle_host] that they have not; remove one of them.");
+    if (const auto why = warning_of(*schedule);
+        all.fleets[f].compute.strict && !why.empty())
+      source.refuse(fmt::format("fleet.{}.compute.strict", f),
+                    fmt::format("refuses this: {}", why));
+  }
+}
+
 } // namespace
 
 void check_whole(const scenario_definition& all, const toml_file& source) {
@@ -188,6 +205,7 @@ void check_whole(const scenario_definition& all, const toml_file& source) {
   check_stations(all, source);
   check_provider_stations(all, source);
   check_services(all, source);
+  check_own_cores(all, source);
   check_providers(all, source);
   check_placement(all, source);
   check_obstacles(all, source);

@@ -7,7 +7,8 @@
 namespace sofof::scenario {
 
 /// Refuses a scenario whose parts do not fit together: names that are doubled
-/// or that nothing bears, station ids used twice, vehicles without room.
+/// or that nothing bears, station ids used twice, vehicles without room, or, if
+/// they are to, that cannot take their functions back.
 /// @param all     With its world.
 /// @param source  Knows the places.
 /// @throws input_error.

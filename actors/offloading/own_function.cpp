@@ -6,9 +6,23 @@
 
 namespace sofof::actors {
 
+namespace {
+
+/// What a cycle computes on board.
+duration drawn_run_time(const world::cycle_options& compute,
+                        const random_stream& draws, std::uint64_t cycle) {
+  const auto drawn =
+      from_seconds(draws.normal(to_seconds(compute.run_time_mean),
+                                to_seconds(compute.run_time_sd), cycle));
+  return std::clamp(drawn, duration{0}, compute.run_time_max);
+}
+
+} // namespace
+
 offloading::cycle_setup own_function(const requester_actor_setup& vehicle,
                                      const offloading::onboard_service& service,
-                                     std::function<time_point()> clock) {
+                                     std::function<time_point()> clock,
+                                     const channel::core_seat& seat) {
   auto own = own_cycle(service, vehicle.station, vehicle.noise);
   if (!vehicle.virtual_time) {
     own.finish = [clock = std::move(clock)](time_point start, std::uint64_t) {
@@ -18,14 +32,25 @@ offloading::cycle_setup own_function(const requester_actor_setup& vehicle,
     return own;
   }
   const auto noise = vehicle.noise.part(service.name.view());
-  own.finish = [compute = on(vehicle.computer, service.options).compute,
-                host = vehicle.host, draws = noise.part("local run time")](
-                   time_point start, std::uint64_t cycle) {
-    const auto drawn =
-        from_seconds(draws.normal(to_seconds(compute.run_time_mean),
-                                  to_seconds(compute.run_time_sd), cycle));
-    const auto work = std::clamp(drawn, duration{0}, compute.run_time_max);
-    return offloading::cycle_work{start + host.draw(draws, cycle) + work, work};
+  const auto compute = on(vehicle.computer, service.options).compute;
+  const auto draws = noise.part("local run time");
+  if (!seat.core) {
+    own.finish = [compute, host = vehicle.host, draws](time_point start,
+                                                       std::uint64_t cycle) {
+      const auto work = drawn_run_time(compute, draws, cycle);
+      return offloading::cycle_work{start + host.draw(draws, cycle) + work,
+                                    work};
+    };
+    return own;
+  }
+  own.finish = [seat, compute, draws,
+                period = own.period](time_point start, std::uint64_t cycle) {
+    const auto work = drawn_run_time(compute, draws, cycle);
+    seat.core->begin(seat.number, start, work, start + period);
+    return offloading::cycle_work{seat.core->done_at(seat.number, start), work};
+  };
+  own.review = [seat](time_point now) {
+    return seat.core->done_at(seat.number, now);
   };
   return own;
 }

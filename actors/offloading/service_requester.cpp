@@ -42,8 +42,9 @@ struct requester_state {
     const auto client = what.spawn_client(self->system(), vehicle);
     const auto manager = spawn_requester_manager(
         self->system(),
-        {setup.station, service, own_function(setup, service, clock_of(self)),
-         client, self, setup.recorder, setup.record_margins, setup.trace,
+        {setup.station, service,
+         own_function(setup, service, clock_of(self), what.seat), client, self,
+         setup.recorder, setup.record_margins, setup.trace,
          setup.lodm->needs_scene()});
     if (client != vehicle) // as its own client
       self->link_to(client);

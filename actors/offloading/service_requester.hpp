@@ -2,6 +2,7 @@
 #pragma once
 
 #include "channel/core_wait.hpp"
+#include "channel/preemptive_core.hpp"
 #include "messages/protocol/motion.hpp"
 #include "messages/type_ids.hpp"
 #include "offloading/service.hpp"
@@ -26,6 +27,7 @@ struct client_service {
           [](caf::actor_system&, const messages::vehicle_actor& vehicle) {
             return messages::client_actor{vehicle};
           };
+  channel::core_seat seat{}; ///< Of its own function, in virtual time.
 };
 
 /// What one vehicle's requester is made of.

@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <map>
+#include <optional>
 #include <vector>
 
 using namespace sofof;
@@ -29,7 +30,9 @@ struct released_cycle : offloading::cycle_port {
   };
 
   bool keeps_phase, per_input;
+  std::optional<dice> interruptions; // of a core that it shares
   std::vector<time_point> releases;
+  time_point done;
   std::multimap<time_point, std::uint64_t> timers;
   offloading::service_cycle cycle{
       {.session = {1, 101, "echo", 7},
@@ -39,14 +42,29 @@ struct released_cycle : offloading::cycle_port {
        .finish =
            [this](time_point start, std::uint64_t) {
              releases.push_back(start);
-             return offloading::cycle_work{start + 5ms, 3ms};
+             done = start + 5ms;
+             return offloading::cycle_work{done, 3ms};
            },
+       .review = shared(),
        .keeps_phase = keeps_phase,
        .per_input = per_input},
       *this};
 
-  released_cycle(bool keeps_phase, bool per_input)
-      : keeps_phase{keeps_phase}, per_input{per_input} {}
+  released_cycle(bool keeps_phase, bool per_input,
+                 std::optional<dice> interruptions = {})
+      : keeps_phase{keeps_phase}, per_input{per_input}, interruptions{
+                                                            interruptions} {}
+
+  /// Cycles of a shared core take one period and a half at most.
+  std::function<time_point(time_point)> shared() {
+    if (!interruptions)
+      return nullptr;
+    return [this](time_point now) {
+      if (done == now && interruptions->between(0, 2) < 1)
+        done += from_seconds(interruptions->between(0, 0.03));
+      return done;
+    };
+  }
 
   void wake_at(time_point t, std::uint64_t number) override {
     timers.emplace(t, number);
@@ -116,5 +134,23 @@ TEST_CASE("cycles that are called by inputs have the jitter of calls, however "
       CHECK(called.keep(policies::jitter_of_calls(period)));
       close += !called.keep(policies::jitter_with_first_cycle(period));
     }
+  CHECK(close > 0);
+}
+
+TEST_CASE("on a core that is shared cycles have the same jitter, however long "
+          "each is under way") {
+  int early = 0, close = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    released_cycle begins{false, false, dice{seed + 100}};
+    begins.live(dice{seed}, false);
+    CHECK(begins.releases.size() > 100);
+    CHECK(begins.keep(policies::jitter_with_first_cycle(period)));
+    early += !begins.keep(0ns);
+    released_cycle called{false, true, dice{seed + 100}};
+    called.live(dice{seed}, false);
+    CHECK(called.keep(policies::jitter_of_calls(period)));
+    close += !called.keep(policies::jitter_with_first_cycle(period));
+  }
+  CHECK(early > 0);
   CHECK(close > 0);
 }

@@ -250,3 +250,87 @@ TEST_CASE_FIXTURE(cycle_world, "an input that a newer one has overtaken on its "
     CHECK(result.timing.input_at == older.at + 10ms);
   }
 }
+
+namespace {
+
+/// A cycle that was to take 5 ms, until something takes the core from it.
+struct interrupted_world : cycle_world {
+  time_point done;
+  offloading::service_cycle shared{
+      {.session = {0, 101, "echo", 0},
+       .function = function,
+       .period = 50ms,
+       .phase = 20ms,
+       .finish =
+           [this](time_point start, std::uint64_t) {
+             done = start + 5ms;
+             return offloading::cycle_work{done, 5ms};
+           },
+       .review = [this](time_point) { return done; }},
+      *this};
+
+  interrupted_world() {
+    shared.on_step(lifecycle_step::configure, now);
+    feed(1);
+    shared.on_step(lifecycle_step::activate, now);
+  }
+  void feed(std::uint64_t number) {
+    shared.on_input({{}, now, payload::of(echo{number})}, now);
+  }
+  void run_for(duration d) {
+    const auto end = now + d;
+    while (!timers.empty() && timers.begin()->first <= end) {
+      const auto due = timers.extract(timers.begin());
+      now = due.key();
+      shared.on_timer(due.mapped(), now);
+    }
+    now = end;
+  }
+};
+
+} // namespace
+
+TEST_CASE_FIXTURE(interrupted_world,
+                  "a result whose computing was interrupted is told when it is "
+                  "done, with what it waited") {
+  done += 7ms;
+  run_for(11ms);
+  CHECK(results.empty());
+  run_for(1ms);
+  REQUIRE(results.size() == 1);
+  const auto& [at, result] = results.front();
+  CHECK(at == time_point{1012ms});
+  CHECK(result.created == time_point{1s});
+  CHECK(result.timing.queue == 7ms);
+  CHECK(result.timing.computing == 5ms);
+}
+
+TEST_CASE_FIXTURE(interrupted_world,
+                  "on a shared core the next cycle begins when the one under "
+                  "way is done, from the newest input then") {
+  done += 25ms; // past the grid's 20 ms
+  run_for(22ms);
+  feed(2);
+  run_for(30ms);
+  CHECK(starts() == std::vector<duration>{0ms, 30ms});
+  CHECK(results.back().first == time_point{1035ms});
+  CHECK(results.back().second.what.as<echo>()->number == 2);
+  run_for(50ms); // and the grid goes on
+  CHECK(starts() == std::vector<duration>{0ms, 30ms, 70ms});
+}
+
+TEST_CASE_FIXTURE(interrupted_world,
+                  "who comes home while its last cycle is under way begins "
+                  "when that is done, who leaves meanwhile does not") {
+  done += 25ms;
+  shared.on_step(lifecycle_step::deactivate, now);
+  shared.on_step(lifecycle_step::activate, now);
+  run_for(32ms);
+  CHECK(starts() == std::vector<duration>{0ms});
+  run_for(10ms);
+  CHECK(starts() == std::vector<duration>{0ms, 30ms});
+  run_for(30ms); // 72 ms: one is under way
+  shared.on_step(lifecycle_step::deactivate, now);
+  run_for(1s);
+  CHECK(starts() == std::vector<duration>{0ms, 30ms, 70ms});
+}

@@ -101,6 +101,11 @@ TEST_CASE("the worst response through a provider is that of the oldest input, "
   options.limits = {50ms, 100ms, 500ms};
   options.compute.run_time_max = 45ms;
   CHECK(offloading::worst_response(options) == 645ms);
+  options.own_response = 70ms;
+  CHECK(offloading::worst_response(options) == 670ms);
+  options.own_response = duration::max();
+  CHECK(offloading::worst_response(options) == duration::max());
+  options.own_response.reset();
   CHECK(offloading::worst_response(offloading::on({.clock_ghz = 1.5}, options))
         == 650ms); // its cycles last no longer than the period
   options.limits.max_input_age = duration::max(); // no limit

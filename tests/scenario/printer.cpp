@@ -144,6 +144,7 @@ TEST_CASE("every option stands in the documentation") {
   auto all = example::load();
   all.grid = true;
   all.obstacles.emplace_back();
+  all.fleets.front().compute.scheduling = core_order::edf;
   all.providers.front().sensors.emplace_back();
   std::istringstream lines{to_toml(all)};
   auto options = 0;

@@ -5,6 +5,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 using namespace sofof;
 using namespace sofof::world;
 
@@ -45,6 +47,18 @@ TEST_CASE("a slow radio can eat up what offloading saves") {
   const computer_options far{.uplink_mbps = 1};
   CHECK(sending_cost(far, usual_cycle()).energy_j
         > on_board_cost(far, usual_cycle()).energy_j);
+}
+
+TEST_CASE("no drawn run time is longer than the longest") {
+  cycle_options cycle{.run_time_mean = 5ms,
+                      .run_time_sd = 1ms,
+                      .run_time_max = 45ms,
+                      .demand = {}};
+  CHECK(longest_run_time(cycle) == 13'600us);
+  cycle.run_time_max = 10ms;
+  CHECK(longest_run_time(cycle) == 10ms);
+  const auto rarest = 0.5 * 0x1p-52; // the least uniform draw there is
+  CHECK(std::sqrt(-2 * std::log(rarest)) < 8.6);
 }
 
 TEST_CASE("computer and cycle list their options once, within their ranges") {

@@ -1,6 +1,7 @@
 // What one cycle of a function costs a vehicle: on board, and offloaded.
 #pragma once
 
+#include "base/core_order.hpp"
 #include "base/options/option_visitor.hpp"
 #include "base/time.hpp"
 
@@ -26,17 +27,14 @@ struct computer_options {
   /// mW per Mbit/s. Source: Huang et al., MobiSys 2012, of an LTE telephone.
   double receiving_share = 0.12;
 
-  void visit_options(option_visitor& s) {
-    s.field("clock_ghz", clock_ghz, {0.1, 100});
-    s.field("capacitance_js2", capacitance_js2, {0, 1e-20});
-    s.field("transmit_power_w", transmit_power_w, {0, 100});
-    s.field("uplink_mbps", uplink_mbps, {0.001, 1e6});
-    if (s.has("computing_w", computing_w.has_value()))
-      s.field("computing_w", computing_w ? *computing_w : computing_w.emplace(),
-              {0, 1e4});
-    s.field("resting_share", resting_share, {0, 1});
-    s.field("receiving_share", receiving_share, {0, 1e3});
-  }
+  /// How the vehicle's own functions share its cores in virtual time; by
+  /// default each has one of its own.
+  std::optional<core_order> scheduling;
+  std::int64_t cores = 1; ///< That they share.
+  /// Whether a vehicle is refused that cannot take all its functions back.
+  bool strict = false;
+
+  void visit_options(option_visitor& s);
 };
 
 /// What clocks are compared with: the run times of services are those at this
@@ -66,6 +64,9 @@ struct cycle_options {
 /// @returns a provider's computing time of a cycle, in that of a cycle which
 /// takes `usual_run_time` on board.
 double demand_of(const cycle_options& cycle);
+
+/// @returns what no drawn run time of a cycle on board exceeds.
+duration longest_run_time(const cycle_options& cycle);
 
 /// Time from the begin of a cycle on, and energy out of the vehicle's battery.
 struct cycle_cost {
