@@ -125,11 +125,13 @@ safe_response crossing(const seen_body& o, double own_mps, bool has_priority,
     return {stop_s, "crossing"};
   const auto stops_m =
       farthest_m(o.speed_mps, assumed.others_response_s, assumed.lon);
-  if (!has_priority && stops_m > o.room_m)
+  const auto can_stop = stops_m <= o.room_m;
+  if (!can_stop && !has_priority)
     return {stop_s, "crossing"};
-  // It stays where it is.
+  // It comes so near, or has to wait where it is.
+  const auto left_m = o.beside_m * (can_stop ? 1 - stops_m / o.room_m : 1.0);
   const auto across_s =
-      longest_response_s(o.own_nearing_mps, o.beside_m, assumed.lat);
+      longest_response_s(o.own_nearing_mps, left_m, assumed.lat);
   return {std::max(stop_s, across_s), "crossing"};
 }
 
