@@ -146,14 +146,18 @@ double reach_m(double speed_mps, const rss_motion& of, double responds_s) {
   return farthest_m;
 }
 
-/// @returns whether a body from the side can still stop before the lane, which
-/// it does then: that is assumed of it.
-bool waits(const drawn_scene& x, const drawn_body& o) {
+/// @returns how near to the own vehicle's side a body from the side comes that
+/// has to stay where it is, or can still stop before the lane, and does: that
+/// is assumed of it. Negative: it comes into the lane.
+double waits_at_m(const drawn_scene& x, const drawn_body& o) {
   const auto beside_m = x.beside_m(o);
-  return beside_m > 0 && o.seen.centre.y_m < x.d_m
-         && reach_m(o.seen.speed_mps, x.assumed.lon,
-                    x.assumed.others_response_s)
-                <= beside_m;
+  const auto points_here =
+      (o.seen.centre.y_m > x.d_m) != (std::sin(o.seen.heading_rad) > 0);
+  const auto comes_m = points_here && !x.has_priority
+                           ? reach_m(o.seen.speed_mps, x.assumed.lon,
+                                     x.assumed.others_response_s)
+                           : 0.0;
+  return beside_m > 0 ? beside_m - comes_m : -1;
 }
 
 drawn_scene drawn(dice& random, const route_ptr& way) {
@@ -182,10 +186,9 @@ drawn_scene drawn(dice& random, const route_ptr& way) {
     } else if (kind < 3)
       x.others.push_back(a_body(at_m + 40, random.between(-1, 1),
                                 std::numbers::pi + turned, fast_mps));
-    else if (const auto o = a_body(at_m, random.between(-40, 5),
-                                   std::numbers::pi / 2, fast_mps);
-             !x.has_priority || x.beside_m(o) <= 0 || waits(x, o))
-      x.others.push_back(o);
+    else
+      x.others.push_back(
+          a_body(at_m, random.between(-40, 5), std::numbers::pi / 2, fast_mps));
   }
   if (random.between(0, 1) < 0.1)
     x.stop_at_m = x.front_m() + random.between(0, 60);
@@ -247,15 +250,8 @@ bool is_dangerous(const drawn_scene& x, const drawn_body& o, double own_s) {
     return across && along;
   }
   const auto passes = reach_m(x.speed_mps, lon, own_s) > ahead_m;
-  const auto points_here = side * std::sin(o.seen.heading_rad) < 0;
-  const auto comes_m =
-      points_here ? reach_m(o.seen.speed_mps, lon, others_s) : 0.0;
-  const auto cannot_stop = comes_m > beside_m;
-  if (beside_m <= 0 || (cannot_stop && !x.has_priority))
-    return passes;
-  return passes
-         && may_meet(cannot_stop ? beside_m : beside_m - comes_m, 0, 0, lat,
-                     own_s, 0);
+  const auto waits_m = waits_at_m(x, o);
+  return passes && (waits_m < 0 || may_meet(waits_m, 0, 0, lat, own_s, 0));
 }
 
 bool is_dangerous(const drawn_scene& x, double own_s) {
@@ -278,16 +274,16 @@ struct plane_motion {
 };
 
 /// @returns a motion of the own vehicle within what is assumed of it. Before
-/// one who waits far enough beside the lane, it drives_each on.
+/// one who waits far enough beside the lane, it drives on.
 plane_motion own_motion(const drawn_scene& x, const drawn_body& o, double own_s,
                         dice& random) {
   const auto& [lon, lat, others_s] = x.assumed;
   const auto worst = random.between(0, 1) < 0.5;
   const auto responds_s = worst ? own_s : random.between(0, own_s);
   const auto side = random.between(0, 1) < 0.5 ? -1.0 : 1.0;
-  const auto waits_m = x.beside_m(o) - reach_m(o.seen.speed_mps, lon, others_s);
+  const auto waits_m = waits_at_m(x, o);
   const auto drives_on =
-      !o.is_along && waits(x, o) && !may_meet(waits_m, 0, 0, lat, own_s, 0);
+      !o.is_along && waits_m >= 0 && !may_meet(waits_m, 0, 0, lat, own_s, 0);
   return {{0, x.speed_mps,
            worst ? lon.accel_max_mps2
                  : random.between(-lon.brake_max_mps2, lon.accel_max_mps2),
@@ -313,10 +309,11 @@ plane_motion other_motion(const drawn_scene& x, const drawn_body& o,
       : kind < 2 ? -lon.brake_max_mps2
                  : random.between(-lon.brake_max_mps2, lon.accel_max_mps2);
   if (!o.is_along) {
-    const auto drives_on = !waits(x, o);
-    const auto speed = o.across_mps();
+    const auto waits = waits_at_m(x, o) >= 0;
+    const auto stays = waits && x.has_priority;
     return {{o.seen.centre.x_m, 0, 0, 0, lon.brake_min_mps2, true},
-            {o.seen.centre.y_m, speed, accel, drives_on ? never_s : others_s,
+            {o.seen.centre.y_m, stays ? 0.0 : o.across_mps(),
+             stays ? 0.0 : accel, waits ? others_s : never_s,
              lon.brake_min_mps2, false}};
   }
   const auto sign = o.comes_back() ? -1.0 : 1.0;
@@ -330,8 +327,8 @@ plane_motion other_motion(const drawn_scene& x, const drawn_body& o,
 }
 
 /// @returns whether the own vehicle and this body touch.
-bool touch(const drawn_scene& x, const drawn_body& o, plane_motion own,
-           plane_motion other) {
+bool collide(const drawn_scene& x, const drawn_body& o, plane_motion own,
+             plane_motion other) {
   constexpr auto rounding_m = 1e-6;
   const auto sign = o.is_along && o.comes_back() ? -1.0 : 1.0;
   for (double t = 0; t < rule_ends_s; t += rule_step_s) {
@@ -359,7 +356,7 @@ constexpr auto drives_each = 6;
 } // namespace
 
 TEST_CASE("under the longest safe response time nobody is touched, however "
-          "each drives_each within what is assumed of it, and 5 % more is "
+          "each drives within what is assumed of it, and 5 % more is "
           "dangerous") {
   const road_map map{"street", {}, {toy::straight("street", {0, 0}, {400, 0})}};
   const auto way =
@@ -382,8 +379,8 @@ TEST_CASE("under the longest safe response time nobody is touched, however "
       ++unsafe;
     for (const auto& o : x.others)
       for (int i = 0; i < drives_each && !x.is_behind(o); ++i)
-        if (touch(x, o, own_motion(x, o, longest_s, random),
-                  other_motion(x, o, random)))
+        if (collide(x, o, own_motion(x, o, longest_s, random),
+                    other_motion(x, o, random)))
           ++unsafe;
   }
   MESSAGE(limited << " of " << drawn_scenes() << " limited, " << none
