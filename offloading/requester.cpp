@@ -5,6 +5,7 @@
 #include "base/protocol.hpp"
 #include "base/text/words.hpp"
 #include "offloading/qos_monitor.hpp"
+#include "offloading/service_chain.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -287,8 +288,12 @@ void requester::weigh(Predicate is_due, std::optional<provider_id> offering,
     if (!service.is_moving() && is_due(service))
       for (const auto id :
            decide(service, service.views(providers_, offering, now), offering,
-                  path, now))
+                  path, now)) {
         wanted[id].push_back(service.service.name);
+        service.is_leaving = true;
+      }
+  for (auto& service : services_)
+    service.is_leaving = false;
   for (auto& [id, names] : wanted)
     request(id, std::move(names), path, now);
 }
@@ -350,6 +355,9 @@ requester::context_of(const service_state& service,
                       std::span<const policies::provider_view> providers,
                       std::span<const point> path, time_point now) const {
   assert(service.since <= now);
+  const auto chain = chain_of(services_, service);
+  auto needs = service.needs;
+  needs.worst_response = worst_response_of(chain, service);
   return {.now = now,
           .service = service.service.name.view(),
           .providers = providers,
@@ -359,9 +367,9 @@ requester::context_of(const service_state& service,
           .number = decisions_,
           .current = service.current(),
           .since = service.since,
-          .needs = service.needs,
+          .needs = needs,
           .on_board = service.on_board,
-          .safe_response = service.safe_response(now),
+          .safe_response = safe_response_of(chain, now),
           .future = setup_.future.get()};
 }
 

@@ -49,6 +49,11 @@ duration worst_response(const service_options& options) {
          + options.compute.run_time_max;
 }
 
+duration own_response(const service_options& options) {
+  return (options.per_input ? duration{0} : options.period)
+         + options.compute.run_time_max;
+}
+
 messages::service_input
 vehicle_service::encode_input(messages::service_input input,
                               bool takes_over) const {
@@ -88,7 +93,7 @@ provider_service::termination_message(const messages::service_end&,
 }
 
 onboard_service in_vehicle(const service& what, const vehicle_context& where) {
-  return {what.name, what.options, what.in_vehicle(where)};
+  return {what.name, what.options, what.in_vehicle(where), what.follows};
 }
 
 offered_service at_provider(const service& what,

@@ -65,6 +65,12 @@ world::cycle_cost offloaded_cost(const world::computer_options& computer,
 /// @param options  With run times as on the vehicle's computer.
 duration worst_response(const service_options& options);
 
+/// @returns the longest time from an input to the first result that depends on
+/// it while the vehicle computes the service itself: the longest run time, and
+/// a period before it unless each input has a result of its own.
+/// @param options  With run times as on the vehicle's computer.
+duration own_response(const service_options& options);
+
 /// For which vehicle parts of a service are made.
 struct vehicle_context {
   station_id station = 0;
@@ -161,6 +167,8 @@ struct service {
       in_vehicle;
   std::function<std::shared_ptr<provider_service>(const provider_context&)>
       at_provider;
+  /// The service of whose results its inputs are made; empty: of none.
+  messages::service_name follows{};
 };
 
 /// A service that one vehicle has.
@@ -168,6 +176,7 @@ struct onboard_service {
   messages::service_name name;
   service_options options;                    ///< Limits and period > 0.
   std::shared_ptr<const vehicle_service> own; ///< Not null.
+  messages::service_name follows{}; ///< Of whose results its inputs are made.
 };
 
 /// A service that one provider has.

@@ -222,14 +222,19 @@ private:
               std::span<const roadside_options> beside) const {
     actors::service_world known{
         streets, where_, {}, s_.traffic.grants_crossings(), s_.sensors, {}};
+    if (const auto* planning = planning_service(s_))
+      known.rss = planning->assumed();
     for (const auto& options : beside) {
       const auto sensor = options.make({0, ""});
       known.roadside.push_back(sensor.view());
       known.eyes = noisier(known.eyes, sensor.can);
     }
     std::vector<offloading::service> all;
-    for (const auto& type : s_.services)
+    for (const auto& type : s_.services) {
       all.push_back(type->in(known));
+      if (find_service(s_, type->follows()))
+        all.back().follows = type->follows();
+    }
     return all;
   }
 

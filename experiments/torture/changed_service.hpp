@@ -37,6 +37,10 @@ public:
   std::shared_ptr<const actors::plan_client> plans() const override {
     return real_->plans();
   }
+  std::string_view follows() const override { return real_->follows(); }
+  planners::rss_assumptions assumed() const override {
+    return real_->assumed();
+  }
 
 private:
   actors::service_type_ptr real_;

@@ -107,6 +107,16 @@ TEST_CASE("the worst response through a provider is that of the oldest input, "
   CHECK(offloading::worst_response(options) == duration::max());
 }
 
+TEST_CASE("an own function's first result of an input takes a period and its "
+          "run time, and a result of each input its run time alone") {
+  auto options = echo_options();
+  options.period = 50ms;
+  options.compute.run_time_max = 45ms;
+  CHECK(offloading::own_response(options) == 95ms);
+  options.per_input = true;
+  CHECK(offloading::own_response(options) == 45ms);
+}
+
 TEST_CASE("the phase of an own function is drawn within its period, by its "
           "name") {
   const random_stream noise{1, "vehicle"};
