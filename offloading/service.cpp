@@ -54,6 +54,18 @@ duration own_response(const service_options& options) {
          + options.compute.run_time_max;
 }
 
+std::optional<messages::qos_limits>
+limits_in_scene(const service_options& options, duration safe) {
+  auto limits = options.limits;
+  const auto left =
+      safe - limits.max_interarrival - options.compute.run_time_max;
+  if (left < options.latency_floor)
+    return std::nullopt;
+  limits.max_latency = std::min(limits.max_latency, left);
+  limits.max_input_age = std::min(limits.max_input_age, left);
+  return limits;
+}
+
 messages::service_input
 vehicle_service::encode_input(messages::service_input input,
                               bool takes_over) const {

@@ -28,10 +28,24 @@ struct service_options {
   /// else a result comes in every period, from the newest input.
   bool per_input = false;
   world::cycle_options compute; ///< What a cycle asks of who computes it.
+  /// Whether the scene says how late a result may be: `limits_in_scene`. The
+  /// most that it may say is limits.max_latency, by which whoever does not see
+  /// the scene goes: providers, schedules, policies.
+  bool latency_by_scene = false;
+  duration latency_floor = std::chrono::milliseconds{20}; ///< > 0; the least.
 
   void visit_options(option_visitor& s) {
     using namespace std::chrono_literals;
-    s.field("max_latency", limits.max_latency, duration{1});
+    latency_by_scene = s.word("max_latency", "scene", latency_by_scene);
+    if (latency_by_scene) {
+      s.field("max_latency_cap", limits.max_latency, duration{1});
+      s.field("max_latency_floor", latency_floor, duration{1});
+      if (latency_floor > limits.max_latency)
+        s.refuse("max_latency_floor", "must not be more than "
+                                      "`max_latency_cap`.");
+    } else {
+      s.field("max_latency", limits.max_latency, duration{1});
+    }
     s.field("max_interarrival", limits.max_interarrival, duration{1});
     s.field("max_input_age", limits.max_input_age, duration{1});
     s.field("period", period, 1ms);
@@ -70,6 +84,16 @@ duration worst_response(const service_options& options);
 /// a period before it unless each input has a result of its own.
 /// @param options  With run times as on the vehicle's computer.
 duration own_response(const service_options& options);
+
+/// @param safe     The longest response time under which the scene is safe.
+/// @param options  With run times as on the vehicle's computer.
+/// @returns what may be asked of a result that comes now, so that no response
+/// takes longer, if it is the last one before a gap and the own function has to
+/// take over: limits.max_latency and max_input_age are at most what the longest
+/// gap and the own function's run time leave; nullopt if that is less than
+/// `latency_floor`: then no result is to be waited for.
+std::optional<messages::qos_limits>
+limits_in_scene(const service_options& options, duration safe);
 
 /// For which vehicle parts of a service are made.
 struct vehicle_context {

@@ -41,9 +41,10 @@ struct requester_state {
     auto service = in_vehicle(what.service, {setup.station, clock_of(self)});
     const auto client = what.spawn_client(self->system(), vehicle);
     const auto manager = spawn_requester_manager(
-        self->system(), {setup.station, service, own_function(setup, service),
-                         client, self, setup.recorder, setup.record_margins,
-                         setup.trace, setup.lodm->needs_scene()});
+        self->system(),
+        {setup.station, service, own_function(setup, service), client, self,
+         setup.recorder, setup.record_margins, setup.trace,
+         setup.lodm->needs_scene(), setup.computer});
     if (client != vehicle) // as its own client
       self->link_to(client);
     self->link_to(manager);
