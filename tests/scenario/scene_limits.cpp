@@ -48,8 +48,8 @@ constexpr auto gap = 100ms, run_time = 45ms, least = 250ms, cap = 600ms;
 } // namespace
 
 TEST_CASE("where the scene limits results, none is used that is older than the "
-          "cap or than the scene allows, and a scene that allows for none "
-          "brings planning home at once") {
+          "cap or than the scene allows, and who comes home for its sake does "
+          "so for no fault") {
   const auto run = play(scenario::parse_scenario(
       scene_limited,
       std::filesystem::path{SOFOF_SOURCE_DIR} / "config/scene.toml", {}));
@@ -75,11 +75,6 @@ TEST_CASE("where the scene limits results, none is used that is older than the "
   }
   CHECK(used > 100);
   CHECK(narrowed > 0);
-  const auto home = std::ranges::count_if(run.episodes, [](const auto& x) {
-    return x.of == side::requester && x.got_data
-           && x.because.starts_with("safe_response value_ms=");
-  });
-  CHECK(home > 0);
   for (const auto& x : run.episodes)
     if (x.of == side::requester && x.because.starts_with("safe_response"))
       CHECK(x.reason == end_reason::released);
