@@ -104,6 +104,8 @@ using watchdog_actor = caf::typed_actor<
     reacts_to<arrival>,
     // One has come that is of no use, for this reason; and the check alone.
     reacts_to<session_id, std::string, std::string>,
+    // These are the limits from now on, but for the one of gaps.
+    reacts_to<qos_limits>,
     // Watch no longer.
     reacts_to<service_end>>;
 

@@ -5,6 +5,7 @@
 #include "base/protocol.hpp"
 #include "base/text/words.hpp"
 #include "offloading/qos_monitor.hpp"
+#include "offloading/service_chain.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -22,6 +23,12 @@ requester::requester(requester_setup setup, requester_port& port,
     assert(!find(service.name));
     services_.emplace_back(std::move(service), setup_.computer, now);
   }
+  for (const auto& service : services_)
+    if (const auto all = chain_of(services_, service); all.size() > 1) {
+      for (const auto* x : all)
+        chain_.push_back(x->service.name);
+      break;
+    }
   announce_placement();
   epoch_ = from_seconds(setup_.policy->epoch_s());
   if (epoch_ > duration{0})
@@ -178,7 +185,7 @@ void requester::on_offer(const messages::service_offer& offer, peer_id from,
   trace_.add(step::offer_got, offer, setup_.station, now);
   provider.offer = offer;
   provider.offered_at = now;
-  if (!setup_.chain.empty() && offer.created && *offer.created <= now)
+  if (!chain_.empty() && offer.created && *offer.created <= now)
     provider.way.add(now - *offer.created);
   learn(offer, now);
   if (provider.open_request)
@@ -289,8 +296,12 @@ void requester::weigh(Predicate is_due, std::optional<provider_id> offering,
     if (!service.is_moving() && is_due(service))
       for (const auto id :
            decide(service, service.views(providers_, offering, now), offering,
-                  path, now))
+                  path, now)) {
         wanted[id].push_back(service.service.name);
+        service.is_leaving = true;
+      }
+  for (auto& service : services_)
+    service.is_leaving = false;
   for (auto& [id, names] : wanted)
     request(id, std::move(names), path, now);
 }
@@ -356,6 +367,9 @@ requester::context_of(const service_state& service,
                       std::span<const policies::chain_link> chain,
                       std::span<const point> path, time_point now) const {
   assert(service.since <= now);
+  const auto all = chain_of(services_, service);
+  auto needs = service.needs;
+  needs.worst_response = worst_response_of(all, service);
   return {.now = now,
           .service = service.service.name.view(),
           .providers = providers,
@@ -365,9 +379,9 @@ requester::context_of(const service_state& service,
           .number = decisions_,
           .current = service.current(),
           .since = service.since,
-          .needs = service.needs,
+          .needs = needs,
           .on_board = service.on_board,
-          .safe_response = service.safe_response(now),
+          .safe_response = safe_response_of(all, now),
           .chain = chain,
           .future = setup_.future.get()};
 }

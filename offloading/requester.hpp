@@ -27,9 +27,7 @@ namespace sofof::offloading {
 /// What a requester is made of.
 struct requester_setup {
   station_id station = 0;
-  std::vector<onboard_service> services; ///< With different names.
-  /// Those of them that form a chain, in its order; empty: none do.
-  std::vector<messages::service_name> chain{};
+  std::vector<onboard_service> services;          ///< With different names.
   std::unique_ptr<policies::local_policy> policy; ///< Not null.
   world::computer_options computer{};             ///< The vehicle's.
   random_stream noise{0, ""};                     ///< Of this vehicle.
@@ -259,6 +257,8 @@ private:
            std::string_view detail, time_point now);
 
   requester_setup setup_;
+  std::vector<messages::service_name>
+      chain_; // of services; empty: there is none
   requester_port& port_;
   tracer trace_;
   std::vector<service_state> services_;

@@ -47,7 +47,7 @@ requester::times_of(const service_state& service) const {
 
 std::vector<policies::chain_link> requester::chain_view(time_point now) {
   std::vector<policies::chain_link> chain;
-  for (const auto& name : setup_.chain) {
+  for (const auto& name : chain_) {
     auto* service = find(name);
     assert(service);
     const auto moves = service->is_moving();
@@ -65,12 +65,12 @@ std::vector<policies::chain_link> requester::chain_view(time_point now) {
 }
 
 void requester::predict_response(time_point now) {
-  if (setup_.chain.empty())
+  if (chain_.empty())
     return;
   messages::prediction_record found{
       .at = now, .station = setup_.station, .split = {}};
   std::vector<policies::service_times> times;
-  for (const auto& name : setup_.chain) {
+  for (const auto& name : chain_) {
     const auto* service = find(name);
     assert(service);
     found.split.push_back(service->current());

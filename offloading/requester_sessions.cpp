@@ -23,6 +23,8 @@ messages::end_reason reason_of(messages::qos_breach breach) {
       return messages::end_reason::qos_input_age;
     case messages::qos_breach::gap:
       return messages::end_reason::qos_gap;
+    case messages::qos_breach::scene:
+      return messages::end_reason::released;
     case messages::qos_breach::implausible:
       break;
   }
@@ -139,7 +141,7 @@ void requester::on_result(const messages::service_result& result,
   found.session->confirmed = now;
   auto& service = *found.service;
   const auto provider = result.session.provider;
-  if (!setup_.chain.empty())
+  if (!chain_.empty())
     learn_times(service, result, now);
   const auto latency = now - result.created;
   auto& link = service.link_of(provider);
@@ -305,11 +307,13 @@ void requester::on_violation(const messages::qos_violation& violation,
   const auto found = find(session);
   if (!found)
     return;
-  trace_.add(step::violation, session, now, violation.why);
-  if (violation.breach != messages::qos_breach::implausible)
+  const auto is_fault = violation.breach != messages::qos_breach::scene;
+  if (is_fault)
+    trace_.add(step::violation, session, now, violation.why);
+  if (is_fault && violation.breach != messages::qos_breach::implausible)
     log(messages::event_type::violation, session, violation.why, now);
   auto& service = *found.service;
-  if (violation.breach != messages::qos_breach::latency)
+  if (is_fault && violation.breach != messages::qos_breach::latency)
     observe_missed(service, session.provider, now);
   if (!violation.others_hold && found.session->at == phase::remote)
     leave_beside(service, session.provider, violation.why, now);

@@ -8,6 +8,15 @@
 
 namespace sofof::offloading {
 
+namespace {
+
+/// @returns the longest time from the start of a cycle on board to its result.
+duration longest_cycle(const service_options& options) {
+  return options.shared_response.value_or(options.compute.run_time_max);
+}
+
+} // namespace
+
 service_options on(const world::computer_options& computer,
                    service_options options) {
   assert(computer.clock_ghz > 0);
@@ -42,11 +51,31 @@ world::cycle_cost offloaded_cost(const world::computer_options& computer,
 
 duration worst_response(const service_options& options) {
   const auto& limits = options.limits;
-  const auto own = options.own_response.value_or(options.compute.run_time_max);
+  const auto own = longest_cycle(options);
   if (limits.max_input_age == duration::max() || own == duration::max())
     return duration::max();
   assert(limits.max_input_age > duration{0});
   return limits.max_input_age + limits.max_interarrival + own;
+}
+
+duration own_response(const service_options& options) {
+  const auto own = longest_cycle(options);
+  return own == duration::max() || options.per_input ? own
+                                                     : options.period + own;
+}
+
+std::optional<messages::qos_limits>
+limits_in_scene(const service_options& options, duration safe) {
+  auto limits = options.limits;
+  const auto own = longest_cycle(options);
+  if (own == duration::max())
+    return std::nullopt;
+  const auto left = safe - limits.max_interarrival - own;
+  if (left < options.latency_floor)
+    return std::nullopt;
+  limits.max_latency = std::min(limits.max_latency, left);
+  limits.max_input_age = std::min(limits.max_input_age, left);
+  return limits;
 }
 
 messages::service_input
@@ -88,7 +117,7 @@ provider_service::termination_message(const messages::service_end&,
 }
 
 onboard_service in_vehicle(const service& what, const vehicle_context& where) {
-  return {what.name, what.options, what.in_vehicle(where)};
+  return {what.name, what.options, what.in_vehicle(where), what.follows};
 }
 
 offered_service at_provider(const service& what,

@@ -34,11 +34,25 @@ struct service_options {
   /// The longest time from a cycle's start to its result on board, where
   /// functions share the vehicle's cores, duration::max() if nothing limits it;
   /// else a cycle takes its run time. No option: it follows from those of all.
-  std::optional<duration> own_response;
+  std::optional<duration> shared_response;
+  /// Whether the scene says how late a result may be: `limits_in_scene`. The
+  /// most that it may say is limits.max_latency, by which whoever does not see
+  /// the scene goes: providers, schedules, policies.
+  bool latency_by_scene = false;
+  duration latency_floor = std::chrono::milliseconds{20}; ///< > 0; the least.
 
   void visit_options(option_visitor& s) {
     using namespace std::chrono_literals;
-    s.field("max_latency", limits.max_latency, duration{1});
+    latency_by_scene = s.word("max_latency", "scene", latency_by_scene);
+    if (latency_by_scene) {
+      s.field("max_latency_cap", limits.max_latency, duration{1});
+      s.field("max_latency_floor", latency_floor, duration{1});
+      if (latency_floor > limits.max_latency)
+        s.refuse("max_latency_floor", "must not be more than "
+                                      "`max_latency_cap`.");
+    } else {
+      s.field("max_latency", limits.max_latency, duration{1});
+    }
     s.field("max_interarrival", limits.max_interarrival, duration{1});
     s.field("max_input_age", limits.max_input_age, duration{1});
     s.field("period", period, 1ms);
@@ -73,6 +87,22 @@ world::cycle_cost offloaded_cost(const world::computer_options& computer,
 /// of inputs, or that.
 /// @param options  With run times as on the vehicle's computer.
 duration worst_response(const service_options& options);
+
+/// @returns the longest time from an input to the first result that depends on
+/// it while the vehicle computes the service itself: the longest run time, and
+/// a period before it unless each input has a result of its own.
+/// @param options  With run times as on the vehicle's computer.
+duration own_response(const service_options& options);
+
+/// @param safe     The longest response time under which the scene is safe.
+/// @param options  With run times as on the vehicle's computer.
+/// @returns what may be asked of a result that comes now, so that no response
+/// takes longer, if it is the last one before a gap and the own function has to
+/// take over: limits.max_latency and max_input_age are at most what the longest
+/// gap and the own function's run time leave; nullopt if that is less than
+/// `latency_floor`: then no result is to be waited for.
+std::optional<messages::qos_limits>
+limits_in_scene(const service_options& options, duration safe);
 
 /// For which vehicle parts of a service are made.
 struct vehicle_context {
@@ -170,6 +200,8 @@ struct service {
       in_vehicle;
   std::function<std::shared_ptr<provider_service>(const provider_context&)>
       at_provider;
+  /// The service of whose results its inputs are made; empty: of none.
+  messages::service_name follows{};
 };
 
 /// A service that one vehicle has.
@@ -177,6 +209,7 @@ struct onboard_service {
   messages::service_name name;
   service_options options;                    ///< Limits and period > 0.
   std::shared_ptr<const vehicle_service> own; ///< Not null.
+  messages::service_name follows{}; ///< Of whose results its inputs are made.
 };
 
 /// A service that one provider has.

@@ -30,6 +30,8 @@ service_state::service_state(onboard_service what,
                                       service.options.limits.max_interarrival,
                                       worst_response(offloading::on(
                                           computer, service.options))},
+      own_response{
+          offloading::own_response(offloading::on(computer, service.options))},
       on_board{world::on_board_cost(computer, service.options.compute)},
       offloaded{offloaded_cost(computer, service.options)}, since{now},
       times{service.options.per_input ? duration{0} : service.options.period,

@@ -59,7 +59,8 @@ struct requester_session {
 /// What the requester remembers of one service.
 struct service_state {
   onboard_service service;
-  policies::service_needs needs; ///< Each > 0.
+  policies::service_needs needs; ///< Each > 0; of this service alone.
+  duration own_response{};       ///< While the vehicle computes it.
   world::cycle_cost on_board{};  ///< Of a cycle in the vehicle.
   world::cycle_cost offloaded{}; ///< Time: of the way there alone.
   time_point since{};            ///< It has been where it is.
@@ -72,6 +73,7 @@ struct service_state {
   /// The oldest first; empty: it is local.
   std::vector<requester_session> sessions{};
   std::vector<provider_id> wanted{}; ///< Which providers shall run it.
+  bool is_leaving = false;           ///< A request of it is about to be sent.
   std::optional<messages::standby> standing_by{}; ///< One of them, if any.
   std::map<provider_id, time_point> cool_until{};
   /// By what came from there.

@@ -27,6 +27,12 @@ std::string in_words(const objection& why) {
                      why.limit);
 }
 
+/// @returns the narrowest limit that a result may have.
+duration least_latency(const service_options& options) {
+  return options.latency_by_scene ? options.latency_floor
+                                  : options.limits.max_latency;
+}
+
 messages::implausibility told(const objection& why) {
   return {in_words(why), std::string{why.check}};
 }
@@ -36,8 +42,8 @@ messages::implausibility told(const objection& why) {
 source_selector::source_selector(selector_setup setup, selector_port& port)
     : setup_{std::move(setup)}, port_{port},
       trace_{messages::trace_part::selector, sink_of(setup_.trace, port)},
-      answers_{options().period}, warm_{options().warm_standby,
-                                        options().limits},
+      limits_{options().limits}, answers_{options().period},
+      warm_{options().warm_standby, options().limits},
       work_{setup_.station, setup_.service.name} {
   assert(setup_.service.own);
   assert(options().period > duration{0});
@@ -96,29 +102,13 @@ void source_selector::on_input(const messages::service_input& input,
   }
   newest_.at = input.at;
   newest_.what = input.what;
-  if (setup_.asks_scene)
+  if (setup_.asks_scene || options().latency_by_scene)
     look_at_scene(now);
   if (!run_along(now))
     port_.feed_local(input);
   for (auto& x : sources_)
     if (input_due(x, now) && !(x.in_use && is_standby(x)))
       feed(x, now);
-}
-
-void source_selector::look_at_scene(time_point now) {
-  const auto found = own().look_at_scene(newest_);
-  if (!found)
-    return;
-  assert(found->longest >= duration{0});
-  port_.report_safe_response(found->longest);
-  messages::scene_record seen{.at = now,
-                              .station = setup_.station,
-                              .service = setup_.service.name,
-                              .safe = found->longest,
-                              .because = std::string{found->because}};
-  if (!newest_.in_use.empty())
-    seen.response = now - used_input_at_;
-  port_.record(std::move(seen));
 }
 
 bool source_selector::input_due(const source& x, time_point now) const {
@@ -193,7 +183,7 @@ void source_selector::on_result(const messages::service_result& result,
   if (!can)
     record_now_and_then(
         x->doubt_told, result.session,
-        in_words("clock_doubt", result.doubt, options().limits.max_latency / 2),
+        in_words("clock_doubt", result.doubt, least_latency(options()) / 2),
         now);
   else if (!broken.empty())
     note(messages::event_type::result_refused, result.session, broken, now);
@@ -231,12 +221,13 @@ void source_selector::on_result(const messages::service_result& result,
 std::string
 source_selector::broken_limit(const messages::service_result& result,
                               time_point now) const {
-  const auto& limits = options().limits;
-  if (!in_time(result.created, now, limits.max_latency))
-    return in_words("latency", now - result.created, limits.max_latency);
+  if (!limits_)
+    return "the scene allows for none";
+  if (!in_time(result.created, now, limits_->max_latency))
+    return in_words("latency", now - result.created, limits_->max_latency);
   const auto& input_at = result.timing.input_at;
-  if (!in_time(input_at, now, limits.max_input_age))
-    return in_words("input_age", now - input_at, limits.max_input_age);
+  if (!in_time(input_at, now, limits_->max_input_age))
+    return in_words("input_age", now - input_at, limits_->max_input_age);
   return {};
 }
 
@@ -270,7 +261,7 @@ bool source_selector::can_judge(source& x,
                                 time_point now) {
   assert(result.session == x.session);
   assert(result.cycle == x.last_cycle);
-  const auto can = result.doubt <= options().limits.max_latency / 2;
+  const auto can = result.doubt <= least_latency(options()) / 2;
   if (can == x.in_doubt) {
     x.in_doubt = !can;
     note(can ? messages::event_type::clock_known

@@ -27,6 +27,7 @@ struct selector_setup {
   bool record_margins = false; ///< With the cycles, those of used results.
   bool trace = false;          ///< Record each step.
   bool asks_scene = false;     ///< Under which response time it is safe.
+  world::computer_options computer{}; ///< The vehicle's.
 };
 
 /// What a selector makes others do. Nothing of this calls the selector back.
@@ -64,6 +65,7 @@ public:
   virtual void watch_arrival(const messages::arrival& result) = 0;
   virtual void watch_useless(const messages::session_id& session,
                              const messages::implausibility& found) = 0;
+  virtual void watch_limits(const messages::qos_limits& limits) = 0;
   virtual void watch_end(const messages::service_end& end) = 0;
 
   virtual void record(messages::record&& x) = 0;
@@ -79,6 +81,9 @@ public:
 ///   that its judge finds nothing against; those that come late, twice or out
 ///   of order are not used;
 /// * an implausible result ends its session at once;
+/// * where the scene says how late a result may be (`limits_in_scene`), its
+///   limits hold from each input on, and a scene that allows for none ends all
+///   sessions at once;
 /// * of several providers the first result of each cycle is used, if the result
 ///   in use may be followed by it; one that has not been in time for
 ///   protocol::start_timeout is reported;
@@ -156,6 +161,7 @@ private:
   bool is_standby(const source& x) const;
 
   void look_at_scene(time_point now);
+  void limit_by_scene(duration safe, time_point now);
   bool input_due(const source& x, time_point now) const;
   bool feed(source& x, time_point now);
   void announce_roles(time_point now);
@@ -197,6 +203,8 @@ private:
   selector_setup setup_;
   selector_port& port_;
   tracer trace_;
+  /// What is asked of results now; nullopt: the scene allows for none.
+  std::optional<messages::qos_limits> limits_;
   std::vector<source> sources_; // the oldest first
   first_response answers_;      // of cycles, by any of them
   std::optional<messages::standby> standby_;

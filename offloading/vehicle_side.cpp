@@ -104,10 +104,12 @@ private:
 
     service_parts(parts& owner, const vehicle_side_setup& setup,
                   const onboard_service& service)
-        : all{owner}, name{service.name},
-          selector{{setup.station, service, setup.record_margins, setup.trace,
-                    setup.policy->needs_scene()},
-                   *this},
+        : all{owner}, name{service.name}, selector{{setup.station, service,
+                                                    setup.record_margins,
+                                                    setup.trace,
+                                                    setup.policy->needs_scene(),
+                                                    setup.computer},
+                                                   *this},
           qos{service.options.limits}, own{cycle(setup, service), wants} {}
 
     cycle_setup cycle(const vehicle_side_setup& setup,
@@ -191,6 +193,9 @@ private:
     void watch_useless(const messages::session_id& session,
                        const messages::implausibility& found) override {
       qos.on_useless(session, found);
+    }
+    void watch_limits(const messages::qos_limits& limits) override {
+      qos.limit(limits);
     }
     void watch_end(const messages::service_end& end) override {
       if (qos.disarm(end.session))

@@ -6,6 +6,13 @@
 
 namespace sofof::offloading {
 
+void watchdog::limit(const messages::qos_limits& limits) {
+  assert(limits.max_latency > duration{0});
+  assert(limits.max_input_age > duration{0});
+  assert(limits.max_interarrival == limits_.max_interarrival);
+  limits_ = limits;
+}
+
 void watchdog::arm(const messages::session_id& session, time_point first) {
   assert(limits_.max_latency > duration{0});
   assert(limits_.max_interarrival > duration{0});

@@ -19,6 +19,10 @@ public:
   /// @param limits  All of them > 0; results exactly at a limit keep it.
   explicit watchdog(messages::qos_limits limits) : limits_{limits} {}
 
+  /// What results may be from now on: the limit of gaps stays.
+  /// @param limits  All of them > 0.
+  void limit(const messages::qos_limits& limits);
+
   /// Watches `session` from now on, and no other.
   /// @param first  When its first result came.
   void arm(const messages::session_id& session, time_point first);

@@ -112,7 +112,7 @@ void share_cores(std::vector<actors::client_service>& services,
   const auto seats = seats_of(schedule);
   for (std::size_t k = 0; k < services.size(); ++k) {
     services[k].seat = seats[k];
-    services[k].service.options.own_response =
+    services[k].service.options.shared_response =
         schedule.functions[k].at_most.value_or(duration::max());
   }
 }
@@ -234,14 +234,19 @@ private:
               std::span<const roadside_options> beside) const {
     actors::service_world known{
         streets, where_, {}, s_.traffic.grants_crossings(), s_.sensors, {}};
+    if (const auto* planning = planning_service(s_))
+      known.rss = planning->assumed();
     for (const auto& options : beside) {
       const auto sensor = options.make({0, ""});
       known.roadside.push_back(sensor.view());
       known.eyes = noisier(known.eyes, sensor.can);
     }
     std::vector<offloading::service> all;
-    for (const auto& type : s_.services)
+    for (const auto& type : s_.services) {
       all.push_back(type->in(known));
+      if (find_service(s_, type->follows()))
+        all.back().follows = type->follows();
+    }
     return all;
   }
 
@@ -391,10 +396,6 @@ private:
   requester_maker(
       const placed_vehicle& v, const planners::route_profile_ptr& road,
       std::shared_ptr<const policies::channel_oracle> future) const {
-    std::vector<messages::service_name> chain;
-    if (const auto names = chain_of(s_); names.size() > 1)
-      for (const auto& name : names)
-        chain.emplace_back(name);
     std::vector<actors::client_service> services;
     for (std::size_t k = 0; k < services_.size(); ++k)
       services.push_back(
@@ -408,7 +409,7 @@ private:
            }});
     if (const auto at_home = schedule_at_home(s_, v.fleet))
       share_cores(services, *at_home);
-    return [&sys = sys_, station = v.station, way = v.way, services, chain,
+    return [&sys = sys_, station = v.station, way = v.way, services,
             lodm = s_.policies.lodm, recorder = world_.recorder,
             noise = noise_of(s_, "vehicle").part(v.station.value()),
             virtual_time = virtual_time_, computer = s_.fleets[v.fleet].compute,
@@ -424,7 +425,6 @@ private:
           actors::spawn_service_requester(sys, {.station = station,
                                                 .path_ahead = path_ahead,
                                                 .services = services,
-                                                .chain = chain,
                                                 .lodm = lodm->clone(),
                                                 .vehicle = vehicle,
                                                 .recorder = recorder,

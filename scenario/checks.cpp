@@ -106,6 +106,27 @@ void check_chain(const scenario_definition& all, const toml_file& source) {
   }
 }
 
+/// Only who looks at the scene can be limited by it, and in a chain that is not
+/// the one whose plans are used.
+void check_scene_limits(const scenario_definition& all,
+                        const toml_file& source) {
+  for (std::size_t k = 0; k < all.services.size(); ++k) {
+    const auto& type = *all.services[k];
+    if (!type.options.latency_by_scene)
+      continue;
+    const auto refuse = [&](std::string_view why) {
+      source.refuse(fmt::format("service.{}.max_latency", k),
+                    fmt::format("max_latency = \"scene\" is for "
+                                "trajectory_planning {}; say a time.",
+                                why));
+    };
+    if (!type.plans())
+      refuse("alone, which looks at the scene");
+    if (find_service(all, type.follows()))
+      refuse("without a chain, in which tracking looks at the scene");
+  }
+}
+
 void check_services(const scenario_definition& all, const toml_file& source) {
   std::vector<std::string_view> names;
   for (const auto& type : all.services) {
@@ -116,6 +137,7 @@ void check_services(const scenario_definition& all, const toml_file& source) {
     names.push_back(type->name());
   }
   check_chain(all, source);
+  check_scene_limits(all, source);
   // Nobody else tells a vehicle where to drive.
   if (!planning_service(all))
     source.refuse("service", "there is no service \"trajectory_planning\"; "

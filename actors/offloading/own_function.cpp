@@ -60,7 +60,6 @@ rules_of(requester_actor_setup vehicle,
          std::vector<offloading::onboard_service> services) {
   return {.station = vehicle.station,
           .services = std::move(services),
-          .chain = std::move(vehicle.chain),
           .policy = std::move(vehicle.lodm),
           .computer = vehicle.computer,
           .noise = vehicle.noise,

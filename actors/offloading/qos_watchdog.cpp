@@ -79,6 +79,9 @@ watchdog(watchdog_impl::stateful_pointer<watchdog_state> self,
         self->state.rules->on_useless(session,
                                       {std::move(why), std::move(check)});
       },
+      [self](const messages::qos_limits& limits) {
+        self->state.rules->limit(limits);
+      },
       [self](const messages::service_end& end) {
         self->state.disarm(end.session);
       },

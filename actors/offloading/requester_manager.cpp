@@ -25,7 +25,8 @@ struct requester_manager_state {
     links.emplace(self, setup);
     selector.emplace(offloading::selector_setup{setup.station, setup.service,
                                                 setup.record_margins,
-                                                setup.trace, setup.asks_scene},
+                                                setup.trace, setup.asks_scene,
+                                                setup.computer},
                      *links);
     links->start(std::move(setup));
   }

@@ -113,6 +113,10 @@ void selector_links::watch_useless(const messages::session_id& session,
   self_->send(watchdog_, session, found.why, found.check);
 }
 
+void selector_links::watch_limits(const messages::qos_limits& limits) {
+  self_->send(watchdog_, limits);
+}
+
 void selector_links::watch_end(const messages::service_end& end) {
   self_->send(watchdog_, end);
 }

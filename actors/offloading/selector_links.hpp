@@ -49,6 +49,7 @@ public:
   void watch_arrival(const messages::arrival& result) override;
   void watch_useless(const messages::session_id& session,
                      const messages::implausibility& found) override;
+  void watch_limits(const messages::qos_limits& limits) override;
   void watch_end(const messages::service_end& end) override;
   void record(messages::record&& x) override;
   void wake_at(time_point t, std::uint64_t number) override;

@@ -22,6 +22,7 @@ struct requester_manager_setup {
   bool record_margins = false; ///< With the cycles, those of used results.
   bool trace = false;          ///< Record each step.
   bool asks_scene = false;     ///< Under which response time it is safe.
+  world::computer_options computer{}; ///< The vehicle's.
 };
 
 /// Owns the local instance and the watchdog, and uses results by the rules of

@@ -40,12 +40,11 @@ struct requester_state {
                                   const client_service& what) {
     auto service = in_vehicle(what.service, {setup.station, clock_of(self)});
     const auto client = what.spawn_client(self->system(), vehicle);
+    const auto own = own_function(setup, service, clock_of(self), what.seat);
     const auto manager = spawn_requester_manager(
-        self->system(),
-        {setup.station, service,
-         own_function(setup, service, clock_of(self), what.seat), client, self,
-         setup.recorder, setup.record_margins, setup.trace,
-         setup.lodm->needs_scene()});
+        self->system(), {setup.station, service, own, client, self,
+                         setup.recorder, setup.record_margins, setup.trace,
+                         setup.lodm->needs_scene(), setup.computer});
     if (client != vehicle) // as its own client
       self->link_to(client);
     self->link_to(manager);

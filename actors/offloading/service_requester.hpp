@@ -37,8 +37,6 @@ struct requester_actor_setup {
   std::function<std::vector<point>(const messages::ego_state&)> path_ahead =
       [](const messages::ego_state&) { return std::vector<point>{}; };
   std::vector<client_service> services; ///< With different names.
-  /// Those of them that form a chain, in its order; empty: none do.
-  std::vector<messages::service_name> chain{};
   std::unique_ptr<policies::local_policy> lodm;
   messages::vehicle_actor vehicle;
   messages::recorder_actor recorder;

@@ -7,6 +7,7 @@
 #include "base/options/option_visitor.hpp"
 #include "messages/v2x/georeference.hpp"
 #include "offloading/service.hpp"
+#include "planners/safety/rss.hpp"
 #include "world/roads/streets.hpp"
 #include "world/sensing/sensors.hpp"
 #include "world/sensing/viewpoint.hpp"
@@ -27,6 +28,7 @@ struct service_world {
   bool crossings_granted = true;
   world::sensor_params eyes{};            ///< Of each vehicle.
   std::vector<world::viewpoint> roadside; ///< Sensors of the provider there.
+  planners::rss_assumptions rss{};        ///< How vehicles move at worst.
   /// What the services of a chain share at providers.
   std::shared_ptr<functions_beside> beside =
       std::make_shared<functions_beside>();
@@ -60,6 +62,10 @@ public:
   /// @returns how vehicles ask it for plans to drive by; null for a service
   /// that makes none.
   virtual std::shared_ptr<const plan_client> plans() const { return nullptr; }
+
+  /// @returns how vehicles move at worst, as whoever looks at their scenes
+  /// assumes it: what the service with `plans` says holds for all.
+  virtual planners::rss_assumptions assumed() const { return {}; }
 
   offloading::service_options options;
 };

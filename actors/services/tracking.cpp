@@ -48,8 +48,7 @@ public:
   offloading::service in(const service_world& world) const override {
     const auto shared = std::make_shared<const planning_world>(
         world.streets, world.where, world.car, world.crossings_granted,
-        world.eyes, planner_options{}, nullptr, planners::rss_assumptions{},
-        world.beside);
+        world.eyes, planner_options{}, nullptr, world.rss, world.beside);
     const auto houses = std::make_shared<const planners::line_of_sight>(
         world.streets->map.buildings());
     return {.name = name(),

@@ -74,6 +74,8 @@ public:
     return make_plan_client();
   }
 
+  planners::rss_assumptions assumed() const override { return rss_; }
+
 private:
   planner_options planner_;
   planners::rss_assumptions rss_;

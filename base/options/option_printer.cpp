@@ -77,6 +77,12 @@ public:
     }
   }
 
+  bool word(std::string_view key, std::string_view what, bool says) override {
+    if (says)
+      put(key, quoted_toml(std::string{what}));
+    return says;
+  }
+
   void refuse(std::string_view, const std::string&) override {}
 
 private:

@@ -70,6 +70,14 @@ public:
   /// column. Printers ignore it.
   /// @param why  What would be right: "must not be less than …".
   virtual void refuse(std::string_view key, const std::string& why) = 0;
+  /// Whether an option says this word in place of a value of its own kind.
+  /// @param says  Whether it does now; a printer writes the word then.
+  /// @returns the same; a loader returns whether its file says so, and what is
+  /// set now where it does not have the key.
+  virtual bool word([[maybe_unused]] std::string_view key,
+                    [[maybe_unused]] std::string_view what, bool says) {
+    return says;
+  }
 
   void field(std::string_view key, double& value) { field(key, value, {}); }
 };

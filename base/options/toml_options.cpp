@@ -162,6 +162,15 @@ bool toml_options::has(std::string_view key, bool) {
   return find(key) != nullptr;
 }
 
+bool toml_options::word(std::string_view key, std::string_view what,
+                        bool says) {
+  const auto* n = find(key);
+  if (!n)
+    return says;
+  const auto* text = n->as_string();
+  return text && **text == what;
+}
+
 bool toml_options::moved(std::string_view from, std::string_view to) {
   auto* table = node_.as_table();
   const auto found =

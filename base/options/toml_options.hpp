@@ -46,6 +46,7 @@ public:
       std::string_view key, std::size_t size,
       const std::function<void(std::size_t, option_visitor&)>& list) override;
   bool has(std::string_view key, bool set) override;
+  bool word(std::string_view key, std::string_view what, bool says) override;
   bool moved(std::string_view from, std::string_view to) override;
   void note(std::string_view key, const std::string& what) override;
   void refuse(std::string_view key, const std::string& why) override;

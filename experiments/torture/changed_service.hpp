@@ -38,6 +38,9 @@ public:
   std::shared_ptr<const actors::plan_client> plans() const override {
     return real_->plans();
   }
+  planners::rss_assumptions assumed() const override {
+    return real_->assumed();
+  }
 
 private:
   actors::service_type_ptr real_;

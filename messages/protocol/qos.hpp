@@ -14,6 +14,8 @@ struct qos_limits {
   /// Of the input that a result was made from, when the result is received: it
   /// counts the way up, which the latency leaves out.
   duration max_input_age = duration::max();
+
+  bool operator==(const qos_limits&) const = default;
 };
 
 void visit_fields(auto& v, qos_limits& x) {
@@ -37,10 +39,16 @@ void visit_fields(auto& v, arrival& x) {
   v("input_at", x.input_at);
 }
 
-enum class qos_breach : std::uint8_t { latency, input_age, gap, implausible };
+enum class qos_breach : std::uint8_t {
+  latency,
+  input_age,
+  gap,
+  implausible,
+  scene, ///< It allows for no result any more; no fault of the provider's.
+};
 
 constexpr qos_breach last_of(qos_breach) {
-  return qos_breach::implausible;
+  return qos_breach::scene;
 }
 
 /// Why a result is implausible, or of no use.

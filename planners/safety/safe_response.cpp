@@ -127,9 +127,11 @@ safe_response crossing(const seen_body& o, double own_mps, bool has_priority,
       farthest_m(o.speed_mps, assumed.others_response_s, assumed.lon);
   if (!has_priority && stops_m > o.room_m)
     return {stop_s, "crossing"};
-  // It stays where it is.
+  // It stops so near, or has to stay where it is.
+  const auto left_m =
+      has_priority ? o.beside_m : o.beside_m * (1 - stops_m / o.room_m);
   const auto across_s =
-      longest_response_s(o.own_nearing_mps, o.beside_m, assumed.lat);
+      longest_response_s(o.own_nearing_mps, left_m, assumed.lat);
   return {std::max(stop_s, across_s), "crossing"};
 }
 

@@ -14,8 +14,10 @@ struct service_needs {
   duration max_latency{};      ///< From the begin of a cycle to its result.
   duration max_interarrival{}; ///< Between two results.
   /// The longest time from what a sensor sees to the first result that depends
-  /// on it, as long as limits are kept, and until the vehicle's own function
-  /// has taken over when they are not; duration::max(): they do not bound it.
+  /// on it while a provider computes the service, as long as limits are kept,
+  /// and until the vehicle's own function has taken over when they are not; of
+  /// services that make a chain, to the result of the last one, with the others
+  /// where they are. duration::max(): they do not bound it.
   duration worst_response = duration::max();
 };
 

@@ -220,7 +220,7 @@ private:
     x = static_cast<messages::side>(below(2));
   }
   void fill_enum(messages::qos_breach& x) {
-    x = static_cast<messages::qos_breach>(below(4));
+    x = static_cast<messages::qos_breach>(below(5));
   }
   void fill_enum(messages::lifecycle_step& x) {
     x = static_cast<messages::lifecycle_step>(below(4));

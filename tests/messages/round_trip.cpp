@@ -146,7 +146,7 @@ TEST_CASE_TEMPLATE("an unknown value of an enumeration is refused", T,
       ++known;
     }
   const auto expected = std::is_same_v<T, end_reason>        ? 13
-                        : std::is_same_v<T, qos_breach>      ? 4
+                        : std::is_same_v<T, qos_breach>      ? 5
                         : std::is_same_v<T, lifecycle_step>  ? 4
                         : std::is_same_v<T, stream_id::what> ? 4
                                                              : 2;

@@ -101,15 +101,49 @@ TEST_CASE("the worst response through a provider is that of the oldest input, "
   options.limits = {50ms, 100ms, 500ms};
   options.compute.run_time_max = 45ms;
   CHECK(offloading::worst_response(options) == 645ms);
-  options.own_response = 70ms;
+  options.shared_response = 70ms;
   CHECK(offloading::worst_response(options) == 670ms);
-  options.own_response = duration::max();
+  options.shared_response = duration::max();
   CHECK(offloading::worst_response(options) == duration::max());
-  options.own_response.reset();
+  options.shared_response.reset();
   CHECK(offloading::worst_response(offloading::on({.clock_ghz = 1.5}, options))
         == 650ms); // its cycles last no longer than the period
   options.limits.max_input_age = duration::max(); // no limit
   CHECK(offloading::worst_response(options) == duration::max());
+}
+
+TEST_CASE("an own function's first result of an input takes a period and its "
+          "run time, and a result of each input its run time alone") {
+  auto options = echo_options();
+  options.period = 50ms;
+  options.compute.run_time_max = 45ms;
+  CHECK(offloading::own_response(options) == 95ms);
+  options.per_input = true;
+  CHECK(offloading::own_response(options) == 45ms);
+}
+
+TEST_CASE("what a scene allows of a result is what the longest gap and the own "
+          "function leave, never more than the cap, and nothing below the "
+          "floor") {
+  auto options = echo_options();
+  options.limits = {200ms, 100ms, 500ms}; // the first one is the cap
+  options.compute.run_time_max = 45ms;
+  options.latency_floor = 30ms;
+  CHECK(offloading::limits_in_scene(options, 645ms)
+        == messages::qos_limits{200ms, 100ms, 500ms});
+  CHECK(offloading::limits_in_scene(options, 644ms)
+        == messages::qos_limits{200ms, 100ms, 499ms});
+  CHECK(offloading::limits_in_scene(options, 300ms)
+        == messages::qos_limits{155ms, 100ms, 155ms});
+  CHECK(offloading::limits_in_scene(options, 175ms)
+        == messages::qos_limits{30ms, 100ms, 30ms});
+  CHECK_FALSE(offloading::limits_in_scene(options, 175ms - 1ns));
+  for (duration safe{0}; safe < 2s; safe += 7ms)
+    if (const auto now = offloading::limits_in_scene(options, safe)) {
+      CHECK(now->max_latency <= 200ms);
+      CHECK(now->max_latency >= 30ms);
+      CHECK(now->max_input_age + now->max_interarrival + 45ms <= safe);
+    }
 }
 
 TEST_CASE("the phase of an own function is drawn within its period, by its "

@@ -124,3 +124,18 @@ TEST_CASE_FIXTURE(armed_watchdog, "a violation tells its value and the limit") {
   CHECK(dog.on_deadline(at(2600ms))->why
         == "qos_gap value_ms=600.000000 limit_ms=100.000000");
 }
+
+TEST_CASE_FIXTURE(armed_watchdog, "limits that become narrower or wider hold "
+                                  "from then on, and gaps go on") {
+  CHECK_FALSE(result(1050ms, 50ms));
+  dog.limit({20ms, 100ms});
+  CHECK(dog.deadline() == at(1150ms + 1ns));
+  CHECK_FALSE(result(1100ms, 20ms));
+  dog.limit({40ms, 100ms});
+  CHECK_FALSE(result(1120ms, 40ms));
+  dog.limit({30ms, 100ms});
+  const auto found = result(1130ms, 40ms);
+  REQUIRE(found);
+  CHECK(found->breach == qos_breach::latency);
+  CHECK(found->why == "qos_latency value_ms=40.000000 limit_ms=30.000000");
+}

@@ -309,6 +309,24 @@ TEST_CASE("an unknown name is refused with those that are known") {
   });
 }
 
+TEST_CASE("only planning alone may leave its limit to the scene, under a cap "
+          "that is not below the floor") {
+  const std::string right = "max_latency = \"50ms\"";
+  CHECK(example::error_of(example::with(right, "max_latency = \"scene\"\n"
+                                               "max_latency_cap = \"200ms\""))
+        == "");
+  check_scenario_mistakes(
+      {{right,
+        "max_latency = \"scene\"\nmax_latency_cap = \"30ms\"\n"
+        "max_latency_floor = @\"40ms\"",
+        {"max_latency_floor", "max_latency_cap"}},
+       {right, "max_latency = @\"scenery\"", {"max_latency", "duration"}},
+       {right, right + "\n@max_latency_cap = \"200ms\"", {"max_latency_cap"}},
+       {"[[service]]\nname = \"cabin_climate\"",
+        "[[service]]\nname = \"cabin_climate\"\nmax_latency = @\"scene\"",
+        {"max_latency", "trajectory_planning"}}});
+}
+
 TEST_CASE("a service without a name is refused with those that are known") {
   check_scenario_mistakes(
       {{"[[service]]\nname = \"cabin_climate\"",

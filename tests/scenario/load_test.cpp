@@ -242,3 +242,20 @@ TEST_CASE("the scenarios that come with the project can be loaded") {
   CHECK(scale.providers.size() == 10);
   CHECK(scale.length == 60s);
 }
+
+TEST_CASE("a limit that the scene sets is read with its cap and floor, and "
+          "printed as it was") {
+  const auto s = example::load(example::with(
+      "max_latency = \"50ms\"", "max_latency = \"scene\"\nmax_latency_cap = "
+                                "\"200ms\"\nmax_latency_floor = \"30ms\""));
+  const auto& options = s.services[0]->options;
+  CHECK(options.latency_by_scene);
+  CHECK(options.limits.max_latency == 200ms);
+  CHECK(options.latency_floor == 30ms);
+  const auto text = to_toml(s);
+  CHECK(text.find("max_latency = \"scene\"\nmax_latency_cap = \"200ms\"\n"
+                  "max_latency_floor = \"30ms\"\n")
+        != std::string::npos);
+  CHECK_FALSE(
+      example::load(example::text).services[0]->options.latency_by_scene);
+}

@@ -6,6 +6,7 @@
 #include "actors/services/chain/track_words.hpp"
 #include "actors/services/planning/perceived_at.hpp"
 #include "actors/services/planning/plan_request.hpp"
+#include "actors/services/planning/scene_look.hpp"
 #include "base/protocol.hpp"
 #include "planners/scene/line_of_sight.hpp"
 #include "planners/scene/object_tracker.hpp"
@@ -83,6 +84,12 @@ public:
 
   std::unique_ptr<offloading::result_judge> make_judge() const override {
     return make_track_reader(world_, houses_);
+  }
+
+  /// For the whole chain: nobody knows sooner what was seen.
+  std::optional<offloading::safe_response>
+  look_at_scene(const messages::service_input& latest) const override {
+    return look_at(latest, *world_);
   }
 
 private:

@@ -100,9 +100,12 @@ public:
     return policies::continues(here, there, step);
   }
 
+  /// In a chain its first service looks.
   std::optional<offloading::safe_response>
   look_at_scene(const messages::service_input& latest) const override {
-    return look_at(latest, *world_);
+    const auto request = latest.what.as<plan_request>();
+    return request && request->found.scene ? std::nullopt
+                                           : look_at(latest, *world_);
   }
 
   messages::payload

@@ -4,7 +4,27 @@
 #include "actors/services/planning/plan_request.hpp"
 #include "planners/safety/safe_response.hpp"
 
+#include <vector>
+
 namespace sofof::actors {
+
+namespace {
+
+/// Bodies may be nearer than they are seen by so many standard deviations.
+constexpr auto noise_sigmas = 3.0;
+
+std::vector<world::perceived_object>
+widened(std::vector<world::perceived_object> seen,
+        const world::sensor_params& eyes) {
+  const auto all_round_m = 2 * noise_sigmas * eyes.position_noise_m;
+  for (auto& x : seen) {
+    x.length_m += all_round_m;
+    x.width_m += all_round_m;
+  }
+  return seen;
+}
+
+} // namespace
 
 std::optional<offloading::safe_response>
 look_at(const messages::service_input& latest, const planning_world& world) {
@@ -17,12 +37,13 @@ look_at(const messages::service_input& latest, const planning_world& world) {
   const auto& own = request->from;
   const auto& agreed = request->crossing;
   const auto binds = agreed && agreed->binds && !agreed->drive.empty();
+  const auto objects = widened(request->seen.objects, world.eyes);
   const planners::safety_scene scene{.way = *way,
                                      .s_m = own.s_m,
                                      .d_m = own.d_m,
                                      .turned_rad = own.heading_error_rad,
                                      .speed_mps = own.speed_mps,
-                                     .objects = request->seen.objects,
+                                     .objects = objects,
                                      .stop_at_m = request->stop_at_m(world.car),
                                      .has_priority =
                                          world.crossings_granted || binds};

@@ -1,0 +1,54 @@
+// How late results may be by what the vehicle sees.
+#include "base/reason.hpp"
+#include "offloading/qos_monitor.hpp"
+#include "offloading/source_selector.hpp"
+
+#include <cassert>
+#include <utility>
+#include <vector>
+
+namespace sofof::offloading {
+
+void source_selector::look_at_scene(time_point now) {
+  const auto found = own().look_at_scene(newest_);
+  if (!found)
+    return;
+  assert(found->longest >= duration{0});
+  if (options().latency_by_scene)
+    limit_by_scene(found->longest, now);
+  port_.report_safe_response(found->longest);
+  messages::scene_record seen{.at = now,
+                              .station = setup_.station,
+                              .service = setup_.service.name,
+                              .safe = found->longest,
+                              .because = std::string{found->because}};
+  if (!newest_.in_use.empty())
+    seen.response = now - used_input_at_;
+  port_.record(std::move(seen));
+}
+
+// Those that wait for their first result wait on: the scene may allow it then.
+void source_selector::limit_by_scene(duration safe, time_point now) {
+  const auto limits = limits_in_scene(on(setup_.computer, options()), safe);
+  if (limits && limits != limits_)
+    port_.watch_limits(*limits);
+  limits_ = limits;
+  if (limits)
+    return;
+  std::vector<messages::session_id> used;
+  for (const auto& x : sources_)
+    if (x.in_use)
+      used.push_back(x.session);
+  for (const auto& session : used) {
+    on_end({session, messages::end_reason::released, messages::side::requester},
+           now);
+    port_.report({session,
+                  messages::qos_breach::scene,
+                  now,
+                  true,
+                  in_words("safe_response", safe, duration{0}),
+                  {}});
+  }
+}
+
+} // namespace sofof::offloading
