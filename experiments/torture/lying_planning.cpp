@@ -78,7 +78,11 @@ public:
 
 private:
   void hear(const messages::service_input& input, time_point now) {
-    const auto message = input.what.as<messages::its_pdu>();
+    auto message = input.what.as<messages::its_pdu>();
+    // In a chain the vehicle's word is the first of several messages.
+    if (const auto words = input.what.as<messages::its_pdus>();
+        words && !words->all.empty())
+      message = {words, &words->all.front()};
     messages::etsi::mcm mcm;
     if (!message || !messages::etsi::decode(message->view(), mcm))
       return;
