@@ -239,8 +239,11 @@ std::string_view scene_judge::hold_to_beside(const own_knowledge& x,
     if (crosses_there)
       continue;
     if (same == told.beside.end()) {
+      // Who hardly reaches so far may be out of the lane for others.
+      if (std::min(nearest_m - own.low_m, own.high_m + nearest_m)
+          > limits.beside_m + uncertain_m_)
+        check = "beside";
       told.beside.push_back(own);
-      check = "beside";
       continue;
     }
     const auto farther_m =

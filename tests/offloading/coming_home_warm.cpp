@@ -97,6 +97,7 @@ struct warm_world : offloading::selector_port {
   void report_safe_response(duration) override {}
   void watch(const session_id&, time_point) override {}
   void watch_arrival(const arrival&) override {}
+  void watch_limits(const qos_limits&) override {}
   void watch_useless(const session_id&, const implausibility&) override {}
   void watch_end(const service_end&) override {}
   void record(sofof::messages::record&& x) override {

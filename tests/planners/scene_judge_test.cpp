@@ -142,7 +142,7 @@ TEST_CASE("who leaves hardly room enough may be told to be passed, where it "
 
 TEST_CASE("a body beside is told as wide as it is known") {
   told_drive_of_scenes x;
-  x.own.beside = {{220, 225, -2.5, -0.7, 0, 0, 0}};
+  x.own.beside = {{220, 225, -2.5, -0.5, 0, 0, 0}};
   driving_scene lie;
   SUBCASE("not at all") {}
   SUBCASE("farther beside") {
@@ -150,7 +150,7 @@ TEST_CASE("a body beside is told as wide as it is known") {
   }
   CHECK_FALSE(x.step(lie).refused);
   REQUIRE(x.told.beside.size() == 1);
-  CHECK(x.told.beside[0].high_m == -0.7);
+  CHECK(x.told.beside[0].high_m == -0.5);
   const auto end = x.go_on(3, lie);
   REQUIRE(end);
   CHECK(end->first == "beside");

@@ -25,7 +25,7 @@ perceived_object told_car(double x_m, double y_m, double speed_mps = 0) {
   return {{x_m, y_m}, 0, speed_mps, 0, 5.1, 1.89};
 }
 
-using bodies = std::vector<perceived_object>;
+using seen_bodies = std::vector<perceived_object>;
 
 /// A vehicle that stands at the origin, looks round every 100 ms, and is told
 /// of the others a moment later.
@@ -33,7 +33,7 @@ struct told_drive_of_tracks {
   time_point now{10s};
   double speed_mps = 0;
   duration link = 50ms; ///< From a look to what is told of it.
-  bodies seen;
+  seen_bodies seen;
   std::vector<std::pair<std::uint32_t, perceived_object>> told;
   double noise_m = 0;
   random_stream noise{1, "track_judge_test"};
@@ -53,7 +53,7 @@ struct told_drive_of_tracks {
           look[k].centre
           + point{draws.normal(0, noise_m, n), draws.normal(0, noise_m, n, 1)};
     }
-    bodies what;
+    seen_bodies what;
     std::vector<std::uint32_t> ids;
     for (const auto& [id, x] : told) {
       ids.push_back(id);

@@ -276,7 +276,7 @@ figures measure(const scenario_definition& s, const memory_sink& lied,
   return out;
 }
 
-std::string counted(const std::map<std::string, std::size_t>& checks) {
+std::string list_counts(const std::map<std::string, std::size_t>& checks) {
   std::string all;
   for (const auto& [check, count] : checks)
     all += fmt::format("{}{}:{}", all.empty() ? "" : ",", check, count);
@@ -299,7 +299,7 @@ int drive(lie what, std::uint64_t seed, bool traffic, int seconds) {
       lie_names[static_cast<std::size_t>(what)], seed, traffic ? "yes" : "no",
       seconds, x.collisions, x.beyond_m, x.outside_s, x.braking_s,
       x.least_accel_mps2, x.over_mps, x.late_s, x.back_ms, x.requests,
-      x.refused, counted(x.checks));
+      x.refused, list_counts(x.checks));
   return 0;
 }
 
@@ -353,7 +353,8 @@ int drive_chain(std::string_view what, std::string_view offered,
              "refused={} used={} checks={}\n",
              what, offered, seed, seconds, x.collisions, x.beyond_m,
              x.outside_s, x.braking_s, x.least_accel_mps2, x.over_mps,
-             without_plan_s, x.refused, counted(used), counted(x.checks));
+             without_plan_s, x.refused, list_counts(used),
+             list_counts(x.checks));
   return 0;
 }
 
