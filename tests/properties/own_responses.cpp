@@ -184,7 +184,7 @@ private:
       options.compute.run_time_mean = all.how_ ? most : most / 2;
       options.compute.run_time_sd = all.how_ ? duration{0} : most / 4;
       auto made = actors::own_function(
-          all.vehicle_, offloading::in_vehicle(its, {all.vehicle_.station}),
+          all.vehicle_, offloading::in_vehicle(its, {all.vehicle_.station}), {},
           seat);
       made.finish = [this, finish = made.finish](time_point start,
                                                  std::uint64_t number) {
