@@ -19,10 +19,12 @@ constexpr double least_results = 20;
 void requester::learn_times(service_state& service,
                             const messages::service_result& result,
                             time_point now) {
+  assert(result.session.is_remote());
   const auto& [input_at, up, queue, computing, down] = result.timing;
   if (input_at <= service.answered_input || input_at > now)
     return;
   service.answered_input = input_at;
+  assert(service.answered_input <= now);
   auto& there = service.times.at[result.session.provider];
   there.up.add(up.wait + up.travel);
   there.computing.add(queue + computing);
@@ -42,6 +44,7 @@ requester::times_of(const service_state& service) const {
     there.computing =
         policies::time_law::exactly(service.computing(provider.offer));
   }
+  assert(times.at.size() >= service.times.at.size());
   return times;
 }
 
@@ -61,6 +64,7 @@ std::vector<policies::chain_link> requester::chain_view(time_point now) {
                      .on_board = service->on_board,
                      .times = times_of(*service)});
   }
+  assert(chain.size() == chain_.size());
   return chain;
 }
 
@@ -76,11 +80,13 @@ void requester::predict_response(time_point now) {
     found.split.push_back(service->current());
     times.push_back(times_of(*service));
   }
+  assert(times.size() == chain_.size());
   const auto law = policies::predicted_response(times, found.split);
   if (!law.is_known())
     return;
   found.p50 = *law.quantile(0.5);
   found.p99 = *law.quantile(0.99);
+  assert(found.p50 <= found.p99);
   port_.record(std::move(found));
 }
 

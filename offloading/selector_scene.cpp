@@ -29,6 +29,7 @@ void source_selector::look_at_scene(time_point now) {
 
 // Those that wait for their first result wait on: the scene may allow it then.
 void source_selector::limit_by_scene(duration safe, time_point now) {
+  assert(safe >= duration{0});
   const auto limits = limits_in_scene(on(setup_.computer, options()), safe);
   if (limits && limits != limits_)
     port_.watch_limits(*limits);
@@ -49,6 +50,7 @@ void source_selector::limit_by_scene(duration safe, time_point now) {
                   in_words("safe_response", safe, duration{0}),
                   {}});
   }
+  assert(!is_remote());
 }
 
 } // namespace sofof::offloading

@@ -67,6 +67,7 @@ void source_selector::on_missed_result(time_point now) {
     await_missed_result();
     return;
   }
+  assert(now > warm_.missed_at());
   warm_.foresee(now);
   // Its latest result may begin on one that is not in use any more.
   if (!own_runs_along_ || !options().per_input)
@@ -105,6 +106,8 @@ void source_selector::come_home(const messages::service_end& end,
   if (at_once)
     newest_own_.reset();
   drop_own();
+  assert(!own_runs_along_);
+  assert(!newest_own_);
   if (!at_once)
     port_.go_local(newest_);
   trace_.add(step::source,

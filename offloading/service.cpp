@@ -75,6 +75,7 @@ limits_in_scene(const service_options& options, duration safe) {
     return std::nullopt;
   limits.max_latency = std::min(limits.max_latency, left);
   limits.max_input_age = std::min(limits.max_input_age, left);
+  assert(limits.max_latency > duration{0});
   return limits;
 }
 

@@ -38,6 +38,7 @@ std::vector<const service_state*> chain_of(std::span<const service_state> all,
 
 duration worst_response_of(std::span<const service_state* const> chain,
                            const service_state& one) {
+  assert(!chain.empty());
   duration sum{0};
   for (const auto* x : chain) {
     const auto away = x == &one || x->is_leaving || !x->sessions.empty();
@@ -45,6 +46,7 @@ duration worst_response_of(std::span<const service_state* const> chain,
     if (takes == duration::max())
       return takes;
     sum += takes;
+    assert(sum >= duration{0});
   }
   return sum;
 }

@@ -99,28 +99,6 @@ void selector_links::report_safe_response(duration longest) {
   self_->send(requester_, service_, longest);
 }
 
-void selector_links::watch(const messages::session_id& session,
-                           time_point last) {
-  self_->send(watchdog_, session, last);
-}
-
-void selector_links::watch_arrival(const messages::arrival& result) {
-  self_->send(watchdog_, result);
-}
-
-void selector_links::watch_useless(const messages::session_id& session,
-                                   const messages::implausibility& found) {
-  self_->send(watchdog_, session, found.why, found.check);
-}
-
-void selector_links::watch_limits(const messages::qos_limits& limits) {
-  self_->send(watchdog_, limits);
-}
-
-void selector_links::watch_end(const messages::service_end& end) {
-  self_->send(watchdog_, end);
-}
-
 void selector_links::record(messages::record&& x) {
   if (auto* work = std::get_if<messages::work_record>(&x)) {
     work->octets_up = std::exchange(octets_up_, 0);

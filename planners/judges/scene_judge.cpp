@@ -97,6 +97,7 @@ scene_verdict scene_judge::judge(const own_knowledge& x,
     own_.look(x.look);
     looked_at_ = x.look.seen_at;
   }
+  assert(passed_s >= 0);
   const auto waits = wait(x, told, passed_s); // before it is more cautious
   std::array checks{find_impossible(told),   find_added(x, houses, told),
                     hold_to_map(x, told),    hold_to_lead(x, told),
@@ -128,6 +129,7 @@ std::string_view scene_judge::hold_to_map(const own_knowledge& x,
                                           driving_scene& told) const {
   const auto from_m = front_m(x) + limits.map_from_m;
   const auto to_m = front_m(x) + limits.map_to_m;
+  assert(from_m < to_m);
   const auto stretch = [](const way_stretch& s) {
     return std::pair{s.from_m, s.to_m};
   };
@@ -149,6 +151,7 @@ std::string_view scene_judge::hold_to_map(const own_knowledge& x,
 /// other.
 bool scene_judge::is_passed(const own_knowledge& x, double at_m,
                             const driving_scene& told) const {
+  assert(std::isfinite(at_m));
   auto any = false;
   for (const auto& t : x.tracks) {
     const auto foot =
@@ -172,6 +175,7 @@ bool scene_judge::is_passed(const own_knowledge& x, double at_m,
 
 bool scene_judge::is_covered(const own_knowledge& x, const lead_vehicle& lead,
                              const driving_scene& told) const {
+  assert(std::isfinite(lead.rear_s_m));
   const auto off_m = limits.along_m + limits.for_speed_s * lead.speed_mps;
   if (told.lead && told.lead->rear_s_m <= lead.rear_s_m + off_m) {
     const auto is_same = told.lead->rear_s_m > lead.rear_s_m - off_m;
@@ -210,6 +214,8 @@ std::string_view scene_judge::hold_to_lead(const own_knowledge& x,
     told.lead_told.clear();
     check = "lead";
   }
+  assert(check.empty() || told.lead);
+  assert(check.empty() || told.lead_told.empty());
   return check;
 }
 
@@ -217,11 +223,14 @@ std::string_view scene_judge::hold_to_beside(const own_knowledge& x,
                                              driving_scene& told) const {
   std::string_view check;
   const auto nearest_m = car_.width_m / 2 + limits.touches_m;
+  assert(nearest_m > 0);
+  [[maybe_unused]] const auto before = told.beside.size();
   const auto known = x.scene.beside.size();
   for (std::size_t k = 0; k < known; ++k) {
     const auto& own = x.scene.beside[k];
     const auto moves_m = std::abs(own.speed_mps) * limits.for_speed_s;
     const auto off_m = limits.along_m + moves_m;
+    assert(off_m >= limits.along_m);
     if (own.from_m > matters_to_m(x) || own.to_m < front_m(x)
         || own.low_m > nearest_m || own.high_m < -nearest_m
         || (told.lead && told.lead->rear_s_m <= own.from_m + off_m))
@@ -255,6 +264,7 @@ std::string_view scene_judge::hold_to_beside(const own_knowledge& x,
       same->high_m = std::max(same->high_m, own.high_m);
     }
   }
+  assert(told.beside.size() >= before);
   return check;
 }
 
@@ -285,6 +295,8 @@ std::string_view scene_judge::hold_to_crossings(const own_knowledge& x,
     told.crossings.push_back(own);
     check = "crossing";
   }
+  assert(told.crossings.size() >= count);
+  assert(check.empty() == (told.crossings.size() == count));
   return check;
 }
 
@@ -316,6 +328,8 @@ std::string_view scene_judge::find_added(const own_knowledge& x,
                                          const line_of_sight& houses,
                                          const driving_scene& told) const {
   const auto to_m = matters_to_m(x);
+  assert(std::isfinite(to_m));
+  assert(to_m >= front_m(x));
   if (told.lead && told.lead->rear_s_m < to_m) {
     const auto rear_m = told.lead->rear_s_m;
     const auto off_m =
@@ -340,6 +354,7 @@ std::string_view scene_judge::find_added(const own_knowledge& x,
 /// Who stands, and knows of no reason, is told one.
 std::string_view scene_judge::wait(const own_knowledge& x,
                                    const driving_scene& told, double passed_s) {
+  assert(passed_s >= 0);
   const auto until_m = front_m(x) + limits.waits_m;
   const auto is_held = [&](const driving_scene& s) {
     return (s.lead && s.lead->rear_s_m < until_m)
@@ -354,6 +369,7 @@ std::string_view scene_judge::wait(const own_knowledge& x,
     return {};
   }
   waited_s_ += passed_s;
+  assert(waited_s_ >= 0);
   return waited_s_ > limits.most_waited_s ? "waits" : "";
 }
 

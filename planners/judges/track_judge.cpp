@@ -34,6 +34,8 @@ double squared_m2(point a, point b) {
 bool is_elsewhere(const world::perceived_object& before,
                   const world::perceived_object& now, double passed_s,
                   double most_m) {
+  assert(passed_s >= 0);
+  assert(most_m > 0);
   const auto way_m =
       std::max(std::abs(before.speed_mps), std::abs(now.speed_mps)) * passed_s;
   if (squared_m2(before.centre, now.centre)
@@ -65,6 +67,7 @@ track_verdict track_judge::judge(const judged_tracks& x) {
   const auto passed_s = judged_at_ ? std::min(to_seconds(x.now - *judged_at_),
                                               limits.longest_pause_s)
                                    : 0;
+  assert(passed_s >= 0);
   judged_at_ = x.now;
   besides_.clear();
   if (const auto age_s = to_seconds(x.now - x.at); age_s > limits.most_age_s)
@@ -91,6 +94,8 @@ double track_judge::matters_m(const judged_tracks& x) const {
 
 /// Keeps what was seen near enough, the newest last.
 void track_judge::remember(const judged_tracks& x, double matters_m) {
+  assert(matters_m > 0);
+  assert(past_.empty() || past_.back().at < x.look.seen_at);
   std::vector<world::perceived_object> room;
   if (!past_.empty() && x.look.seen_at - past_.front().at > look_memory) {
     room = std::move(past_.front().seen);
@@ -101,6 +106,7 @@ void track_judge::remember(const judged_tracks& x, double matters_m) {
     if (room.size() < most_bodies
         && squared_m2(o.centre, x.look.from.at) < matters_m * matters_m)
       room.push_back(o);
+  assert(room.size() <= most_bodies);
   past_.push_back({x.look.seen_at, std::move(room)});
 }
 
@@ -118,6 +124,8 @@ bool track_judge::was_there(const past_look& then,
   const auto before = moved_on(body, -since_s);
   const auto axis = facing(body);
   const auto drift_m = 0.5 * limits.drift_mps2 * since_s * since_s;
+  assert(since_s >= 0);
+  assert(drift_m >= 0);
   return std::ranges::any_of(then.seen, [&](const auto& o) {
     const auto apart = o.centre - before.centre;
     return std::abs(dot(axis, apart)) < place_along_m + drift_m
@@ -131,10 +139,13 @@ track_judge::comparison
 track_judge::compare(const world::perceived_object& seen, point axis,
                      const world::perceived_object& told,
                      double apart_s) const {
+  assert(apart_s >= 0);
+  assert(std::abs(dot(axis, axis) - 1) < 1e-6);
   const auto apart = told.centre - seen.centre;
   const auto drift_m = 0.5 * limits.drift_mps2 * apart_s * apart_s
                        + sure_sigmas * worse_m_
                        + sure_sigmas * noise_.speed_mps * apart_s;
+  assert(drift_m >= 0);
   comparison x{dot(axis, apart), cross(axis, apart), 0, false, false};
   x.in_place = std::abs(x.along_m) < limits.along_m + drift_m
                && std::abs(x.across_m) < limits.across_m + drift_m;
@@ -166,6 +177,7 @@ bool track_judge::is_off_on_average(std::uint32_t id, const comparison& how,
   if (at > it->at) {
     ++it->looks;
     const auto share = std::max(1.0 / it->looks, limits.mean_share);
+    assert(share > 0 && share <= 1);
     it->along_m += share * (how.along_m - it->along_m);
     it->across_m += share * (how.across_m - it->across_m);
     it->at = at;
@@ -173,11 +185,15 @@ bool track_judge::is_off_on_average(std::uint32_t id, const comparison& how,
   const auto off_m = std::hypot(it->along_m, it->across_m);
   const auto uncertain_m =
       sure_sigmas * std::sqrt(limits.mean_share) * worse_m_;
+  assert(it->looks >= 1);
+  assert(uncertain_m >= 0);
   return it->looks >= limits.mean_of && off_m > limits.mean_m + uncertain_m;
 }
 
 /// Looks for each body that is seen among those that are told.
 std::string_view track_judge::look_for_seen(const judged_tracks& x) {
+  assert(!past_.empty());
+  assert(x.told.size() == x.ids.size());
   const auto apart_s = std::abs(to_seconds(x.look.seen_at - x.at));
   told_.clear();
   for (const auto& o : x.told)
@@ -188,6 +204,8 @@ std::string_view track_judge::look_for_seen(const judged_tracks& x) {
   const auto seen_at = x.look.seen_at;
   const auto* lately = look_before(seen_at - from_seconds(limits.added_for_s));
   const auto* earlier = look_before(seen_at - from_seconds(limits.known_for_s));
+  assert(!lately || lately->at <= seen_at);
+  assert(!earlier || earlier->at <= seen_at);
   std::string_view check;
   for (const auto& body : past_.back().seen) {
     const auto axis = facing(body);
@@ -209,6 +227,7 @@ std::string_view track_judge::look_for_seen(const judged_tracks& x) {
     if (earlier && was_there(*earlier, body, seen_at))
       check = is_near ? "shifted" : "missing";
   }
+  assert(besides_.size() <= past_.back().seen.size());
   return check;
 }
 
@@ -220,6 +239,8 @@ std::string_view track_judge::look_for_told(const judged_tracks& x,
   const auto apart_s = to_seconds(x.look.seen_at - x.at);
   const auto drift_m = 0.5 * limits.drift_mps2 * apart_s * apart_s;
   assert(told_.size() == x.told.size());
+  assert(drift_m >= 0);
+  assert(matters_m > 0);
   for (const auto& o : told_) {
     const auto apart_m2 = squared_m2(o.centre, x.look.from.at);
     if (apart_m2 > matters_m * matters_m || apart_m2 < o.width_m * o.width_m)
@@ -238,6 +259,7 @@ std::string_view track_judge::look_for_told(const judged_tracks& x,
 
 /// Whatever the place: a number or a motion that no road user has.
 std::string_view track_judge::find_impossible(const judged_tracks& x) {
+  assert(x.told.size() == x.ids.size());
   std::string_view check;
   const auto id_of = [](const auto& o) { return o.first; };
   std::swap(told_now_, told_before_);
@@ -253,6 +275,7 @@ std::string_view track_judge::find_impossible(const judged_tracks& x) {
   }
   if (!std::ranges::is_sorted(told_now_, {}, id_of))
     std::ranges::sort(told_now_, {}, id_of);
+  assert(told_now_.size() == x.told.size());
   auto before = told_before_.begin();
   for (const auto& [id, o] : told_now_) {
     before = std::find_if(before, told_before_.end(),
