@@ -130,7 +130,7 @@ void service_cycle::run(time_point now, bool is_besides) {
   // A call off the grid may run one cycle more than the grid has by then.
   const auto cycle =
       std::max(on_grid, is_called ? after_any_ : after_off_grid_);
-  const auto is_ahead = cycle > on_grid + 1;
+  const auto is_ahead = cycle > on_grid + 1 + (is_besides ? 1 : 0);
   if (newest_.what.empty() || is_ahead)
     return;
   auto output = setup_.function->run(now, newest_);

@@ -89,8 +89,8 @@ void vehicle_links::go_by(const received_plan& next,
                           const messages::service_result& from,
                           driven_car& car) {
   const auto t = now(self_);
-  if (auto jump = car.use(next, from, t))
-    send_record(self_, setup_.recorder, std::move(*jump));
+  if (const auto jump = car.use(next, from, t))
+    send_record(self_, setup_.recorder, *jump);
   if (!stages_.empty() && car.goes_by(*next.plan))
     send_record(self_, setup_.recorder,
                 messages::stage_record{setup_.car.station, from.session.service,

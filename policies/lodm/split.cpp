@@ -170,7 +170,9 @@ double split_policy::cost(std::span<const chain_link> chain,
     return never;
   if (measure_ == of_response)
     return to_seconds(*late);
-  return *late <= max_response_ ? spent_w : never;
+  if (*late > max_response_)
+    return never;
+  return spent_w;
 }
 
 void split_policy::visit_options(option_visitor& s) {
