@@ -13,7 +13,7 @@ namespace sofof::planners {
 namespace {
 
 /// Nobody sees, or is told of, more bodies that matter.
-constexpr std::size_t most_bodies = 128;
+constexpr std::size_t most_remembered = 128;
 /// Looks are remembered for so long.
 constexpr duration look_memory = std::chrono::milliseconds{900};
 /// The averages of bodies that are not told any more are forgotten.
@@ -103,10 +103,10 @@ void track_judge::remember(const judged_tracks& x, double matters_m) {
   }
   room.clear();
   for (const auto& o : x.look.seen)
-    if (room.size() < most_bodies
+    if (room.size() < most_remembered
         && squared_m2(o.centre, x.look.from.at) < matters_m * matters_m)
       room.push_back(o);
-  assert(room.size() <= most_bodies);
+  assert(room.size() <= most_remembered);
   past_.push_back({x.look.seen_at, std::move(room)});
 }
 
