@@ -28,7 +28,7 @@ bool source_selector::run_along(time_point now) {
 }
 
 /// As a provider that stands by, it runs one cycle, from the result in use.
-void source_selector::call_own(time_point now) {
+void source_selector::call_own([[maybe_unused]] time_point now) {
   assert(is_remote() && warm_.runs_along(now));
   if (!std::exchange(own_runs_along_, true))
     drop_own();
@@ -38,7 +38,7 @@ void source_selector::call_own(time_point now) {
 }
 
 void source_selector::take_own(const messages::service_result& result,
-                               time_point now) {
+                               [[maybe_unused]] time_point now) {
   assert(is_remote());
   assert(result.created <= now);
   if (!warm_.is_on())

@@ -157,10 +157,11 @@ plan_judge::walk plan_judge::follow(const judged_plan& x) const {
   walk found;
   const auto& path = x.way.path();
   const auto late_s = to_seconds(x.now - x.plan.start);
-  auto worst_m = -boundless, soon_m = -boundless;
+  found.worst_m = found.beyond_m = -boundless;
   auto at_first_m = boundless, after_a_second_m = boundless;
-  double first_mps = 0, first_s_m = 0;
+  auto first_mps = 0.0, first_s_m = 0.0;
   auto next_s = -limits.step_s;
+  auto bounds = x.way.bounds_at(x.plan.points.front().s_m);
   for (const auto& p : x.plan.points) {
     const auto ahead_s = p.t_s - late_s;
     if (ahead_s < next_s)
@@ -170,7 +171,8 @@ plan_judge::walk plan_judge::follow(const judged_plan& x) const {
     if (ahead_s > limits.soon_s)
       next_s = ahead_s + limits.later_step_s; // the rest comes to be soon
     const auto lane = path.frame(p.s_m);
-    const auto bounds = x.way.bounds_at(p.s_m);
+    if (!bounds.apply_at(p.s_m))
+      bounds = x.way.bounds_at(p.s_m);
     const auto d_m = cross(lane.tangent, p.at - lane.at);
     const auto front = p.at + car_.wheelbase_m * axis_of(p.heading_rad, lane);
     const auto under = path.frame(p.s_m + car_.wheelbase_m);
@@ -184,16 +186,13 @@ plan_judge::walk plan_judge::follow(const judged_plan& x) const {
       first_mps = p.speed_mps;
       first_s_m = p.s_m;
     }
-    worst_m = std::max(worst_m, beyond_m);
+    found.worst_m = std::max(found.worst_m, beyond_m);
     if (ahead_s <= limits.soon_s) {
-      soon_m = std::max(soon_m, beyond_m);
+      found.beyond_m = found.worst_m;
       after_a_second_m = beyond_m;
     }
     const auto limit_mps =
         limits.limit_factor * bounds.limit_mps + limits.above_limit_mps;
-    const auto must_slow_by_mps2 =
-        (first_mps * first_mps - limit_mps * limit_mps)
-        / (2 * std::max(p.s_m - first_s_m, 0.1));
     const auto across_mps2 =
         p.speed_mps * p.speed_mps * std::abs(p.curvature_1pm);
     found.along_mps2 = std::max(found.along_mps2, p.accel_mps2);
@@ -201,8 +200,10 @@ plan_judge::walk plan_judge::follow(const judged_plan& x) const {
     found.over_mps = std::max(found.over_mps, p.speed_mps - limit_mps);
     if (found.fault)
       continue;
+    const auto slowing_mps2 = (first_mps * first_mps - limit_mps * limit_mps)
+                              / (2 * std::max(p.s_m - first_s_m, 0.1));
     if (p.speed_mps > limit_mps
-        && (must_slow_by_mps2 < limits.slowing_mps2
+        && (slowing_mps2 < limits.slowing_mps2
             || p.speed_mps > first_mps + limits.speeding_up_mps))
       found.fault = {"speed", p.speed_mps, limit_mps};
     else if (p.accel_mps2 > limits.most_along_mps2)
@@ -214,13 +215,11 @@ plan_judge::walk plan_judge::follow(const judged_plan& x) const {
     if (x.plan.at(t).accel_mps2 < limits.hard_mps2)
       found.brakes_hard = true;
   const auto leads_back = after_a_second_m < at_first_m - limits.way_back_m;
-  assert(soon_m <= worst_m && found.beside_m >= 0);
-  found.worst_m = worst_m;
-  found.beyond_m = soon_m;
-  found.leaves_lane = soon_m > limits.most_beyond_soon_m && !leads_back;
-  if (worst_m > limits.most_beyond_m && !found.fault
-      && !(leads_back && worst_m <= at_first_m + limits.way_back_m))
-    found.fault = {"road", worst_m, limits.most_beyond_m};
+  assert(found.beyond_m <= found.worst_m && found.beside_m >= 0);
+  found.leaves_lane = found.beyond_m > limits.most_beyond_soon_m && !leads_back;
+  if (found.worst_m > limits.most_beyond_m && !found.fault
+      && !(leads_back && found.worst_m <= at_first_m + limits.way_back_m))
+    found.fault = {"road", found.worst_m, limits.most_beyond_m};
   return found;
 }
 

@@ -53,10 +53,10 @@ struct plan_limits {
   double most_age_s = 0.2;
   double own_age_s = 0.2; ///< Who does not know itself better cannot judge.
 
-  double horizon_s = 2.5;     ///< Plans are looked at so far ahead,
-  double step_s = 0.1;        ///< in such steps.
-  double soon_s = 1.0;        ///< The nearer part of it.
-  double later_step_s = 0.25; ///< At least so much apart after that.
+  double horizon_s = 2.5;    ///< Plans are looked at so far ahead,
+  double step_s = 0.1;       ///< in such steps.
+  double soon_s = 1.0;       ///< The nearer part of it.
+  double later_step_s = 0.5; ///< At least so much apart after that.
 
   double most_beyond_m = 0.25; ///< The body beyond the lane's edge.
   double most_beyond_soon_m = 0.0;

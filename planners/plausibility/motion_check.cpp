@@ -31,6 +31,8 @@ constexpr duration time_that_agrees = 500ms;
 
 world::perceived_object moved_on(world::perceived_object x, double dt_s) {
   const auto way_m = x.speed_mps * dt_s;
+  if (way_m == 0)
+    return x;
   x.centre = x.centre
              + way_m * point{std::cos(x.heading_rad), std::sin(x.heading_rad)};
   return x;

@@ -144,7 +144,7 @@ double scene_interpreter::stands_s(time_point now, const own_place& me) {
 double scene_interpreter::reach_of(const track& x) const {
   const auto comes_m =
       params_.judges_crossings
-          ? std::clamp(params_.foresight_s * std::abs(x.speed_mps()),
+          ? std::clamp(params_.foresight_s * x.motion.mean.col(1).norm(),
                        lane_network::at_line_m, lane_network::farthest_m)
           : 0.0;
   return comes_m + 2 * x.length_m + ample_m;
@@ -182,8 +182,10 @@ void scene_interpreter::keep_to_lane(const track& known, time_point now,
   constexpr auto moment_s = 0.15;
   assert(x.id == known.id);
   const auto unseen_s = to_seconds(now - known.seen);
+  if (unseen_s < moment_s)
+    return;
   const auto speed_mps = known.speed_mps();
-  if (unseen_s < moment_s || speed_mps < stands_below_mps)
+  if (speed_mps < stands_below_mps)
     return;
   auto then = known; // straight on since it was seen
   then.motion.mean.col(0) -=

@@ -85,7 +85,12 @@ struct track {
 
   double speed_mps() const { return speed_along_mps(heading_rad); }
 
-  bool stands() const { return std::abs(speed_mps()) < stands_below_mps; }
+  bool stands() const {
+    // Mostly this is enough, without the axis.
+    return motion.mean.col(1).squaredNorm()
+               < stands_below_mps * stands_below_mps
+           || std::abs(speed_mps()) < stands_below_mps;
+  }
 
   /// @returns how far its side may be from where it is thought to be, m: three
   /// standard deviations, at the ends of what may be turned. Who drives may

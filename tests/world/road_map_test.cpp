@@ -211,6 +211,33 @@ TEST_CASE("on a closed route, laps do not matter") {
   CHECK(distance_m(ahead[1], {0, 0}) < 1e-3);
 }
 
+TEST_CASE("what bounds a way stays as it is on the stretch that they name") {
+  const auto map = village_map();
+  const auto way =
+      map.make_route("straight on", names{"south", "cross"}, false);
+  const auto before = way->bounds_at(51);
+  CHECK(before.from_m == doctest::Approx(50));
+  CHECK(before.to_m == doctest::Approx(62)); // where the next zone begins
+  const road_map round{
+      "ring",
+      {},
+      {make_lane("ring", {{0, 0}, {50, 0}, {50, 50}, {0, 50}, {0, 0}},
+                 {"ring"})}};
+  for (const auto& on : {way, round.make_route("round", names{"ring"}, true)})
+    for (double s_m = -20; s_m < 420; s_m += 0.7) {
+      CAPTURE(s_m);
+      const auto bounds = on->bounds_at(s_m);
+      if (on->closed() || s_m < on->length_m())
+        CHECK(bounds.apply_at(s_m));
+      for (const auto share : {0.0, 0.5, 0.999}) {
+        const auto then =
+            on->bounds_at(s_m + share * (bounds.to_m - s_m - 1e-9));
+        CHECK(then.limit_mps == bounds.limit_mps);
+        CHECK(then.half_width_m == bounds.half_width_m);
+      }
+    }
+}
+
 TEST_CASE("waypoints go on to the end of an open route and stop there") {
   const auto map = village_map();
   const auto way = map.make_route("east", names{"east_a", "east_b"}, false);

@@ -80,12 +80,16 @@ double route::limit_mps(double s_m) const {
 
 route::bounds route::bounds_at(double s_m) const {
   const auto [i, on_lane_m] = find_leg(s_m);
+  const auto& zones = limits_[i];
   const auto after =
-      std::ranges::upper_bound(limits_[i], on_lane_m, {}, &speed_zone::from_m);
-  return {half_widths_m_[i],
-          after == limits_[i].begin() ? limits_[i].front().limit_mps
-                                      : std::prev(after)->limit_mps,
-          left_m_[i]};
+      std::ranges::upper_bound(zones, on_lane_m, {}, &speed_zone::from_m);
+  const auto& zone = after == zones.begin() ? zones.front() : *std::prev(after);
+  const auto lane_m = s_m - on_lane_m; // where it begins
+  const auto lane_end_m = lane_m + starts_m_[i + 1] - starts_m_[i];
+  return {half_widths_m_[i], zone.limit_mps, left_m_[i],
+          lane_m + (after == zones.begin() ? 0 : zone.from_m),
+          after == zones.end() ? lane_end_m
+                               : std::min(lane_end_m, lane_m + after->from_m)};
 }
 
 double route::half_width_m(double s_m) const {

@@ -55,9 +55,12 @@ public:
   /// right, or to the far side of the lane's opposite.
   double left_m(double s_m) const;
 
-  /// All at once, for who asks often.
+  /// All at once, for who asks often, and the stretch on which they stay.
   struct bounds {
     double half_width_m, limit_mps, left_m;
+    double from_m, to_m; ///< Within the lap that was asked for.
+
+    bool apply_at(double s_m) const { return from_m <= s_m && s_m < to_m; }
 
     /// @returns whether what reaches from `low_m` to `high_m` across, left
     /// positive, is on the road.
