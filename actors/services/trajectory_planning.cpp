@@ -42,7 +42,10 @@ public:
     service_type::visit_options(s);
     s.table("planner",
             [this](option_visitor& t) { planner_.visit_options(t); });
-    s.table("rss", [this](option_visitor& t) { rss_.visit_options(t); });
+    s.table("rss", [this](option_visitor& t) {
+      rss_.visit_options(t);
+      t.field("proper_response", proper_response_, duration{0});
+    });
   }
 
   offloading::service in(const service_world& world) const override {
@@ -53,7 +56,8 @@ public:
         !world.crossings_granted);
     auto shared = std::make_shared<const planning_world>(
         world.streets, world.where, world.car, world.crossings_granted,
-        world.eyes, planner_, std::move(roads), rss_, world.beside);
+        world.eyes, planner_, std::move(roads), rss_, world.beside,
+        proper_response_);
     return {.name = name(),
             .options = options,
             .in_vehicle =
@@ -79,6 +83,7 @@ public:
 private:
   planner_options planner_;
   planners::rss_assumptions rss_;
+  duration proper_response_{};
 };
 
 } // namespace

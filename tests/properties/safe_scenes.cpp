@@ -22,14 +22,15 @@ scene_findings driven(const scene_policy& how, std::uint64_t scenes) {
 } // namespace
 
 TEST_CASE("in scenes that start safe nobody is hit, no service leaves when the "
-          "distance would be less than RSS's, and when it becomes less while "
-          "one is away the car brakes in time, or is safe again at home") {
+          "distance would be less than RSS's, and when it becomes less the "
+          "car brakes in time, or is safe again at home") {
   const auto found = driven({}, 20);
   CAPTURE(found.first);
   CHECK(found.scenes > 15);
   CHECK(found.collisions == 0);
   CHECK(found.entered == 0);
   CHECK(found.late == 0);
+  CHECK(found.home_late == 0);
   CHECK(found.changes > 20);
   CHECK(found.remote_s > found.driven_s / 4);
 }
@@ -41,6 +42,7 @@ TEST_CASE("so it is for a chain, of which a provider takes what the scene "
   CHECK(found.collisions == 0);
   CHECK(found.entered == 0);
   CHECK(found.late == 0);
+  CHECK(found.home_late == 0);
   CHECK(found.changes > 8);
 }
 

@@ -33,6 +33,8 @@ constexpr auto planning_name = "trajectory_planning";
 constexpr station_id::rep first_free = 201; // stations that drive as they like
 constexpr auto limit_mps = 13.8;
 constexpr auto lasts_s = 12.0;
+/// The home split's time, and the lag of the brake.
+constexpr auto starts_safe_under_s = 0.35;
 
 /// Accelerations, one after the other.
 struct free_drive {
@@ -167,8 +169,9 @@ std::string drawn_row(lottery of, int own, double from_m) {
   for (int k = own; k > 0; --k) {
     text += fleet(100U + static_cast<unsigned>(k), "ew", at_m, behind_mps);
     const auto ahead_mps = of.number(0, limit_mps, 2);
-    const auto needed_m = planners::farthest_m(behind_mps, 0.2, lon)
-                          - ahead_mps * ahead_mps / (2 * lon.brake_max_mps2);
+    const auto needed_m =
+        planners::farthest_m(behind_mps, starts_safe_under_s, lon)
+        - ahead_mps * ahead_mps / (2 * lon.brake_max_mps2);
     at_m += car.front_m + car.rear_m + std::max(3.1, needed_m)
             + of.spread(0.2, 40, 2);
     behind_mps = ahead_mps;
@@ -349,8 +352,7 @@ private:
     if (std::exchange(less_->told, true))
       return;
     ++(less_->from_home ? out.home_late : out.late);
-    if (!less_->from_home)
-      tell(k, "late", out);
+    tell(k, "late", out);
   }
 
   // It may take the time of the split that was in use, as when it has just come
@@ -436,7 +438,9 @@ std::string scene_text(std::uint64_t seed, const scene_policy& how) {
   if (how.is_chain)
     text += "[[service]]\nname = \"tracking\"\n"
             "[[service]]\nname = \"environment_model\"\n";
-  text += fmt::format("[[service]]\nname = \"{}\"\n{}{}", planning_name,
+  text += fmt::format("[[service]]\nname = \"{}\"\nrss = {{ proper_response = "
+                      "\"{}ms\" }}\n{}{}",
+                      planning_name, how.is_chain ? 450 : 350,
                       how.is_chain ? "input_period = \"50ms\"\n" : "",
                       how.is_slow ? slow_limits : "");
   return text + drawn_air(of.part("air"), how.is_slow)
@@ -458,7 +462,8 @@ scene_findings drive_scene(std::uint64_t seed, const scene_policy& how) {
     if (v.station.value() < first_free)
       looked_at.emplace_back(v.station, v.way);
   for (const auto& [who, way] : looked_at)
-    if (onlooker{who, *way, all, true}.safe_s(0) < times.home_s())
+    if (onlooker{who, *way, all, true}.safe_s(0)
+        < times.home_s() + world::vehicle_params{}.drive_lag_s)
       return {.passed_over = 1};
   for (const auto& [who, way] : looked_at)
     onlooker{who, *way, all, true}.look(out);

@@ -3,7 +3,9 @@
 
 #include "actors/services/planning/plan_cycle.hpp"
 #include "actors/services/planning/plan_request.hpp"
+#include "actors/services/planning/scene_look.hpp"
 #include "base/protocol.hpp"
+#include "planners/safety/proper_response.hpp"
 #include "planners/scene/object_tracker.hpp"
 
 #include <algorithm>
@@ -41,6 +43,8 @@ public:
           std::clamp(from.accel_mps2, -style().comfort_decel_mps2,
                      style().max_accel_mps2); // none of its own so far
     const auto report = plan(now, *request, std::move(from));
+    if (!input.standby)
+      keep_safe(input);
     return {messages::payload::of(cycle_->plan()),
             messages::payload::of(report)};
   }
@@ -74,6 +78,19 @@ private:
     return cycle_->run(now, std::move(from),
                        scene ? std::span{scene->made_of->all} : model_.tracks(),
                        told);
+  }
+
+  // Planners brake as softly as they can, and keep distances of their own.
+  void keep_safe(const messages::service_input& input) {
+    const auto within = world_->proper_response;
+    if (within == duration{} || !cycle_->plan().is_sound())
+      return;
+    const auto scene = look_at(input, *world_);
+    if (!scene || scene->longest >= within)
+      return;
+    auto plan = cycle_->plan();
+    planners::respond_properly(plan, world_->rss.lon.brake_min_mps2);
+    cycle_->take_over(plan);
   }
 
   const planners::comfort_limits& style() const {

@@ -4,6 +4,7 @@
 #include "actors/services/planning/known_others.hpp"
 #include "actors/services/planning/known_roads.hpp"
 #include "actors/services/planning/planner_options.hpp"
+#include "base/time.hpp"
 #include "messages/v2x/georeference.hpp"
 #include "planners/safety/rss.hpp"
 #include "planners/scene/scene_interpreter.hpp"
@@ -28,6 +29,9 @@ struct planning_world {
   /// In a chain, the functions that run at one provider.
   std::shared_ptr<functions_beside> beside =
       std::make_shared<functions_beside>();
+  /// At home, vehicles brake as RSS assumes it of them while their scene is not
+  /// safe under this response time; 0: not for that reason.
+  duration proper_response{};
 
   /// @returns how a vehicle looks at the others.
   planners::scene_params look() const {
