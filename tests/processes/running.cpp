@@ -16,7 +16,7 @@ TEST_CASE("six vehicles drive and offload on the wall's clock") {
   const auto out = at.drive("out", {"--realtime", "--duration", "3s"});
   const auto summary = summary_of(out);
   CHECK(summary["virtual_s"] == 3.0);
-  CHECK(summary["timing"]["wall_s"] >= 3.0);
+  CHECK(summary["timing"]["wall_s"] >= 2.99); // rounded, and not from 0
   CHECK(summary["wall_s"] == summary["timing"]["wall_s"]);
   CHECK(summary["interrupted"] == false);
   CHECK(summary["safety"]["collisions"] == 0);
