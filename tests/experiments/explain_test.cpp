@@ -359,8 +359,10 @@ TEST_CASE("the parts of an age add up as printed, whatever is rounded") {
     double all = 0;
     std::uint64_t k = 0;
     for (auto* of : {&x.uplink_wait, &x.uplink, &x.rest, &x.queue, &x.computing,
-                     &x.downlink_wait, &x.downlink})
-      all += * of = noise.exponential(k % 2 == 0 ? 0.04 : 5, 10 * n + k++);
+                     &x.downlink_wait, &x.downlink}) {
+      all += * of = noise.exponential(k % 2 == 0 ? 0.04 : 5, 10 * n + k);
+      ++k;
+    }
     const auto text = in_parts(x, true);
     double sum = 0;
     for (auto at = text.find_first_of("0123456789"); at != text.npos;
