@@ -15,6 +15,7 @@ namespace sofof::made_up {
 
 using namespace messages;
 using namespace recording;
+using test::scratch;
 
 namespace {
 
