@@ -219,10 +219,12 @@ figure responses_of(const recorded_run& run, const chain_record& from,
   all.places.emplace_back(own_computer, std::nullopt);
   for (const auto& service : from.services)
     add_strip(all, run, from, service);
-  all.caption =
-      "Measured: each look of the vehicle's sensors, until the first control "
-      "value that depends on it. ";
-  all.curves.push_back(measured(from));
+  if (auto points = measured(from); !points.x.empty()) {
+    all.curves.push_back(std::move(points));
+    all.caption =
+        "Measured: each look of the vehicle's sensors, until the first "
+        "control value that depends on it. ";
+  }
   if (auto scene = allowed(from); !scene.x.empty()) {
     all.curves.push_back(std::move(scene));
     all.caption +=

@@ -167,6 +167,16 @@ TEST_CASE(
     CHECK(limits.y[i] == doctest::Approx(expected[i]));
 }
 
+TEST_CASE("a run that was told to write no responses shows the rest") {
+  const chain_folder folder;
+  std::filesystem::remove(folder.path() / "responses.csv");
+  const auto all = chain_of(folder);
+  const auto& shown = std::get<figure>(all.blocks.at(0));
+  CHECK(shown.strips.size() == 3);
+  CHECK(shown.curves.size() == 2);
+  CHECK_FALSE(contains(shown.caption, "Measured"));
+}
+
 TEST_CASE("where no policy asked what the scene allows, the report says so") {
   const chain_folder folder;
   std::filesystem::remove(folder.path() / "scene.csv");
