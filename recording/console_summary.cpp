@@ -32,7 +32,7 @@ constexpr std::size_t least_column_width = 18;
 constexpr std::size_t column_gap = 2;
 constexpr std::size_t drive_label_width = 24;
 constexpr std::size_t drive_column_width = 14;
-constexpr std::size_t load_column_width = 13;
+constexpr std::size_t narrow_column_width = 13;
 constexpr std::size_t most_load_lines = 9;
 
 /// What a reader sees of an absent figure.
@@ -258,14 +258,14 @@ void lines_of(std::string& out, const terminal_style& paint, const whole_run& x,
   drive_lines(out, x, which, [](const run_figure&) { return std::string{}; });
 }
 
-/// @returns a line about servers, its figures in columns.
-std::string load_line(std::string_view label, std::string_view busy,
-                      std::string_view peak, std::string_view mean,
-                      std::string_view p99) {
-  constexpr auto width = load_column_width;
+/// @returns a line of four figures in columns.
+std::string figures_line(std::string_view label, std::string_view first,
+                         std::string_view second, std::string_view third,
+                         std::string_view fourth) {
+  constexpr auto width = narrow_column_width;
   return fmt::format("{:<{}}{:>{}}{:>{}}{:>{}}{:>{}}", label,
-                     drive_label_width + 2, busy, width, peak, width, mean,
-                     width, p99, width);
+                     drive_label_width + 2, first, width, second, width, third,
+                     width, fourth, width);
 }
 
 /// How busy workers and cells were, those of the most work alone if there are
@@ -291,12 +291,12 @@ void load_lines(std::string& out, const terminal_style& paint,
   };
   out += '\n'
          + paint.heading(
-             load_line("load", "busy", "peak", "wait mean", "wait p99"))
+             figures_line("load", "busy", "peak", "wait mean", "wait p99"))
          + '\n';
   for (const auto& [of, sum] : all)
-    out += load_line(fmt::format("  {} {}", of->provider, of->what),
-                     percent(sum.busy_share), percent(sum.peak_share),
-                     ms(sum.mean_wait_ms), ms(sum.p99_wait_ms))
+    out += figures_line(fmt::format("  {} {}", of->provider, of->what),
+                        percent(sum.busy_share), percent(sum.peak_share),
+                        ms(sum.mean_wait_ms), ms(sum.p99_wait_ms))
            + '\n';
   if (count > all.size())
     out += fmt::format("  {} more, with less to do: load.csv\n",
@@ -309,6 +309,26 @@ void load_lines(std::string& out, const terminal_style& paint,
                                  of->provider, of->what, 100 * full_share,
                                  sum.full_s, to_seconds(length)))
            + '\n';
+}
+
+/// How late vehicles responded to what they saw, whatever the split was.
+void response_lines(std::string& out, const terminal_style& paint,
+                    const distribution& of) {
+  const auto p50 = of.quantile_ms(0.5), p99 = of.quantile_ms(0.99),
+             worst = of.ms().max();
+  if (!worst)
+    return;
+  const auto ms = [](std::optional<double> x) {
+    return fmt::format("{:.0f} ms", *x);
+  };
+  out += '\n'
+         + paint.heading(
+             figures_line("response time", "looks", "p50", "p99", "worst"))
+         + '\n';
+  out +=
+      figures_line("  from look to control", fmt::format("{}", of.ms().count()),
+                   ms(p50), ms(p99), ms(worst))
+      + '\n';
 }
 
 std::uint64_t messages_of(const air_metrics& air) {
@@ -383,6 +403,7 @@ std::string table(const metrics& m, const run_info& run, const run_end& end,
     providing(services);
   }
   services.print(out, paint);
+  response_lines(out, paint, m.response());
   if (run.provider.empty()) {
     const whole_run whole{m, run, end};
     safety_lines(out, paint, whole);

@@ -233,6 +233,8 @@ public:
   const air_metrics& air() const { return air_; }
   const load_table& load() const { return load_; }
   const response_table& responses() const { return responses_; }
+  /// @returns those of all splits together.
+  const distribution& response() const { return response_; }
   /// @returns the vehicles whose headline service is remote just now.
   std::size_t offloaded_now() const;
 
@@ -271,6 +273,7 @@ private:
   void add(const messages::air_record& x);
   void add(const messages::response_record& x) {
     responses_[split_of(x, names_)].add(x);
+    response_.add(x.response());
   }
   void add(const messages::prediction_record& x) {
     responses_[split_of(x, names_)].add(x);
@@ -303,6 +306,7 @@ private:
   air_metrics air_;
   load_table load_;
   response_table responses_;
+  distribution response_;
 };
 
 } // namespace sofof::recording

@@ -42,9 +42,8 @@ void forget_before(time_point t, got_results& all) {
 } // namespace
 
 response_ledger::response_ledger(const std::vector<std::string>& chain) {
-  if (chain.size() > 1)
-    for (const auto& name : chain)
-      chain_.emplace_back(name);
+  for (const auto& name : chain)
+    chain_.emplace_back(name);
 }
 
 void response_ledger::add(const messages::look_record& x) {

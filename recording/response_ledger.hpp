@@ -19,7 +19,8 @@ namespace sofof::recording {
 ///   one was given as soon as that one's cycle has begun.
 class response_ledger {
 public:
-  /// @param chain  The services in their order; less than two are none.
+  /// @param chain  The services in their order, planning the last: it alone, if
+  ///               it does all; none, and nothing is followed.
   explicit response_ledger(const std::vector<std::string>& chain);
 
   void add(const messages::look_record& x);

@@ -107,6 +107,8 @@ void result_files::write(const messages::scene_record& x) {
 }
 
 void result_files::write(const messages::response_record& x) {
+  if (!cycles_)
+    return;
   if (!responses_)
     responses_.emplace(folder_ / "responses.csv", columns::of_responses);
   responses_->write({x, names_, start_});

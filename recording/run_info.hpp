@@ -73,12 +73,13 @@ struct run_info {
   std::uint32_t obstacles = 0; ///< They have the highest station ids.
   recording::provider_names provider_names;
   std::vector<std::string> services; ///< Names, in the order of reports.
-  /// Those of them that form a chain, in its order; fewer than two: none do.
+  /// Those of them that a plan comes from, in their order: a chain, or planning
+  /// alone; none without it.
   std::vector<std::string> chain;
   /// The kind whose figures stand at the top level of the summary.
   std::string headline_kind = "trajectory_planning";
   energy_terms energy;
-  bool cycles = true;   ///< Write cycles.csv.
+  bool cycles = true;   ///< Write cycles.csv and responses.csv.
   bool tracks = true;   ///< Write tracks.csv.
   bool margins = false; ///< Write margins.csv.
   bool trace = false;   ///< Write protocol_trace.csv.

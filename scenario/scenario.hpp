@@ -38,7 +38,7 @@ struct policy_options {
 /// Rates of what is sent and written.
 struct record_options {
   duration tracks_period = std::chrono::milliseconds{100};
-  bool cycles = true;   ///< Write cycles.csv.
+  bool cycles = true;   ///< Write cycles.csv and responses.csv.
   bool tracks = true;   ///< Write tracks.csv.
   bool margins = false; ///< Write margins.csv.
   bool trace = false;   ///< Write protocol_trace.csv.

@@ -79,9 +79,8 @@ void vehicle_links::join_stages() {
 }
 
 void vehicle_links::ask(messages::service_input input, time_point sensed_at) {
-  if (!stages_.empty())
-    send_record(self_, setup_.recorder,
-                messages::look_record{setup_.car.station, sensed_at, input.at});
+  send_record(self_, setup_.recorder,
+              messages::look_record{setup_.car.station, sensed_at, input.at});
   self_->send(first_, std::move(input));
 }
 
@@ -91,7 +90,7 @@ void vehicle_links::go_by(const received_plan& next,
   const auto t = now(self_);
   if (const auto jump = car.use(next, from, t))
     send_record(self_, setup_.recorder, *jump);
-  if (!stages_.empty() && car.goes_by(*next.plan))
+  if (car.goes_by(*next.plan))
     send_record(self_, setup_.recorder,
                 messages::stage_record{setup_.car.station, from.session.service,
                                        from.session.provider, t, from.timing,

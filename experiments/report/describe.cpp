@@ -1,6 +1,7 @@
 // From results folders to sections.
 #include "experiments/report/describe.hpp"
 
+#include "experiments/report/chain_section.hpp"
 #include "experiments/report/comparison.hpp"
 #include "experiments/report/crossing_section.hpp"
 #include "experiments/report/energy_section.hpp"
@@ -129,6 +130,7 @@ std::vector<section> sections_of(runs_view runs) {
     all.push_back(what_differs(runs));
   add(headline_of(runs));
   all.push_back(drives(runs));
+  add(chain_section(runs));
   all.push_back(figures(runs));
   add(load_section(runs));
   add(energy_section(runs));

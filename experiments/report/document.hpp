@@ -37,6 +37,8 @@ struct table {
 struct curve {
   /// Of `tail` each y is the share of values that are x or more.
   enum class style { line, points, steps, tail };
+  /// What is shown in the same colour wherever it is.
+  enum class meaning { any, measured, allowed, admitted };
 
   std::string name;
   std::vector<double> x;
@@ -49,6 +51,23 @@ struct curve {
   std::optional<std::size_t> provider{};
   /// Whose each point is: none, or one for each.
   std::vector<double> stations{};
+  meaning means = meaning::any;
+};
+
+/// Where something of each vehicle was, over the x of a figure's curves.
+struct strip {
+  struct stay {
+    double station = 0;
+    double from = 0, until = 0;
+    std::size_t place = 0; ///< Of `figure::places`.
+  };
+  struct mark {
+    double station = 0;
+    double x = 0;
+  };
+  std::string name;
+  std::vector<stay> stays;
+  std::vector<mark> fallbacks; ///< It had to come home.
 };
 
 struct figure {
@@ -62,6 +81,13 @@ struct figure {
   /// Horizontal lines with their names.
   std::vector<std::pair<double, std::string>> levels{};
   bool by_clock = false; ///< x is the time of the drives.
+  bool log_y = false;    ///< y has a logarithmic axis; what is 0 is at its end.
+  /// Bars above the curves, the first one highest; with them the figure shows
+  /// one vehicle at a time.
+  std::vector<strip> strips{};
+  /// Of the strips: their names, and whose colours they have, a provider's by
+  /// its place in the configuration; the vehicle itself has none.
+  std::vector<std::pair<std::string, std::optional<std::size_t>>> places{};
 };
 
 /// Named points of a plane, of which more than one quantity counts.

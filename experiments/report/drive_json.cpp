@@ -2,6 +2,7 @@
 #include "experiments/report/drive_json.hpp"
 
 #include "experiments/report/delta_encoding.hpp"
+#include "experiments/report/offloading_spans.hpp"
 #include "experiments/report/recorded_run.hpp"
 #include "experiments/report/scenery_json.hpp"
 #include "messages/protocol/event_type.hpp"
@@ -83,42 +84,6 @@ json vehicles_json(std::span<const track_line> lines) {
   return all;
 }
 
-/// A time in which a service of a vehicle ran at a provider.
-struct offloading_span {
-  session_key of;
-  double from_s = 0;
-  double until_s = 0;
-};
-
-/// @param end_s  Ends what nobody has ended.
-std::vector<offloading_span> switched(std::span<const event_line> events,
-                                      double end_s) {
-  std::vector<offloading_span> all;
-  std::map<std::pair<std::uint64_t, std::string>, std::size_t> open;
-  for (const auto& event : events) {
-    if (event.what != messages::name_of(messages::event_type::switched))
-      continue;
-    const std::pair key{event.of.station, event.of.service};
-    if (const auto found = open.find(key); found != open.end()) {
-      all[found->second].until_s = event.t_s;
-      open.erase(found);
-    }
-    if (event.detail == "remote") {
-      open[key] = all.size();
-      all.push_back({event.of, event.t_s, end_s});
-    }
-  }
-  return all;
-}
-
-std::vector<offloading_span> served(std::span<const episode_line> episodes) {
-  std::vector<offloading_span> all;
-  for (const auto& one : episodes)
-    if (!one.by_requester)
-      all.push_back({one.of, one.accepted_s, one.ended_s});
-  return all;
-}
-
 json offloadings_json(std::span<const offloading_span> offloadings) {
   auto all = json::array();
   for (const auto& one : offloadings)
@@ -158,9 +123,7 @@ json drive_json(const std::filesystem::path& folder) {
   for (const auto& episode : run.episodes)
     reaches(episode.ended_s);
 
-  auto offloadings = switched(events, end_s);
-  if (offloadings.empty())
-    offloadings = served(run.episodes);
+  const auto offloadings = offloadings_of(run, events, end_s);
   json all{{"name", run.label},
            {"until", end_s},
            {"has_tracks", tracks.has_value()},
@@ -169,6 +132,8 @@ json drive_json(const std::filesystem::path& folder) {
            {"vehicles", vehicles_json(lines)},
            {"offloadings", offloadings_json(offloadings)},
            {"events", events_json(events)}};
+  if (const auto chain = scenario::chain_of(run.what); chain.size() > 1)
+    all["chain"] = chain;
   all.update(scenery_json(run.what));
   return all;
 }

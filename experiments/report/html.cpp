@@ -21,6 +21,8 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view style_names[]{"line", "points", "steps", "tail"};
+constexpr std::string_view meaning_names[]{"any", "measured", "allowed",
+                                           "admitted"};
 constexpr std::string_view verdict_names[]{"different", "same", "better",
                                            "worse"};
 
@@ -44,6 +46,8 @@ json to_json(const curve& x) {
     all["provider"] = *x.provider;
   if (!x.stations.empty())
     all["stations"] = delta_encoding(x.stations, 0);
+  if (x.means != curve::meaning::any)
+    all["means"] = meaning_names[static_cast<std::size_t>(x.means)];
   if (!x.low.empty() && !x.high.empty()) {
     all["low"] = delta_encoding(x.low);
     all["high"] = delta_encoding(x.high);
@@ -70,6 +74,26 @@ json to_json(const table& x) {
   return all;
 }
 
+json to_json(const strip& x) {
+  json all{
+      {"name", x.name}, {"stays", json::array()}, {"fallbacks", json::array()}};
+  for (const auto& [station, from, until, place] : x.stays)
+    all["stays"].push_back({station, from, until, place});
+  for (const auto& [station, at] : x.fallbacks)
+    all["fallbacks"].push_back({station, at});
+  return all;
+}
+
+void add_strips(json& to, const figure& x) {
+  for (const auto& one : x.strips)
+    to["strips"].push_back(to_json(one));
+  for (const auto& [name, provider] : x.places) {
+    to["places"].push_back({{"name", name}});
+    if (provider)
+      to["places"].back()["provider"] = *provider;
+  }
+}
+
 json to_json(const figure& x) {
   auto curves = json::array();
   for (const auto& one : x.curves)
@@ -80,11 +104,16 @@ json to_json(const figure& x) {
       all.push_back({at, name});
     return all;
   };
-  return {{"kind", "figure"},          {"title", x.title},
-          {"x_label", x.x_label},      {"y_label", x.y_label},
-          {"curves", curves},          {"marks", lines(x.marks)},
-          {"levels", lines(x.levels)}, {"by_clock", x.by_clock},
-          {"caption", x.caption}};
+  json all{{"kind", "figure"},          {"title", x.title},
+           {"x_label", x.x_label},      {"y_label", x.y_label},
+           {"curves", curves},          {"marks", lines(x.marks)},
+           {"levels", lines(x.levels)}, {"by_clock", x.by_clock},
+           {"caption", x.caption}};
+  if (x.log_y)
+    all["log_y"] = true;
+  if (!x.strips.empty())
+    add_strips(all, x);
+  return all;
 }
 
 json to_json(const scatter& x) {

@@ -244,6 +244,33 @@ std::vector<claim_line> read_claims(const fs::path& folder) {
   return all;
 }
 
+std::vector<response_line> read_responses(const fs::path& folder) {
+  static constexpr columns names{"station", "t_s", "response_ms"};
+  enum { station, t, response };
+  const auto file = folder / "responses.csv";
+  std::vector<response_line> all;
+  if (!fs::exists(file))
+    return all;
+  csv_reader row{file, names, ending_of(folder)};
+  while (row.next())
+    all.push_back({row.whole(station), row.number(t), row.number(response)});
+  return all;
+}
+
+std::vector<scene_line> read_scene(const fs::path& folder) {
+  static constexpr columns names{"station", "t_s", "service", "safe_ms"};
+  enum { station, t, service, safe };
+  const auto file = folder / "scene.csv";
+  std::vector<scene_line> all;
+  if (!fs::exists(file))
+    return all;
+  csv_reader row{file, names, ending_of(folder)};
+  while (row.next())
+    all.push_back({row.whole(station), row.number(t), row.text(service),
+                   row.number(safe)});
+  return all;
+}
+
 std::optional<recording::load_table> read_disturbed(const fs::path& folder) {
   static constexpr columns names{"t_s",  "provider", "direction", "station",
                                  "what", "lost",     "outage",    "stall"};

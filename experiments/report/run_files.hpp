@@ -104,6 +104,21 @@ struct claim_line {
   bool was_kept = false;
 };
 
+/// Of responses.csv.
+struct response_line {
+  std::uint64_t station = 0;
+  double t_s = 0; ///< It was sensed.
+  double response_ms = 0;
+};
+
+/// Of scene.csv.
+struct scene_line {
+  std::uint64_t station = 0;
+  double t_s = 0;
+  std::string service; ///< That has looked.
+  double safe_ms = 0;
+};
+
 /// Of events.jsonl.
 struct event_line {
   double t_s = 0;
@@ -145,6 +160,8 @@ read_tracks(const std::filesystem::path& folder);
 std::vector<load_line> read_load(const std::filesystem::path& folder);
 std::vector<octets_line> read_octets(const std::filesystem::path& folder);
 std::vector<claim_line> read_claims(const std::filesystem::path& folder);
+std::vector<response_line> read_responses(const std::filesystem::path& folder);
+std::vector<scene_line> read_scene(const std::filesystem::path& folder);
 
 /// @returns what disturbed.csv holds, without any other load; nothing when the
 /// run wrote no such file.

@@ -43,8 +43,8 @@ TEST_CASE("the same command twice gives the same bytes") {
         == std::set<std::string>{
             "config.toml", "cycles.csv", "distributions.csv", "energy.csv",
             "episodes.csv", "events.jsonl", "load.csv", "map.toml",
-            "octets.csv", "disturbed.csv", "summary.json", "timing.csv",
-            "tracks.csv", "vehicles.csv"});
+            "octets.csv", "disturbed.csv", "responses.csv", "summary.json",
+            "timing.csv", "tracks.csv", "vehicles.csv"});
   CHECK(names_in(b) == names_in(a));
   for (const auto& name : names_in(a))
     if (name != "timing.csv" && name != "summary.json") {

@@ -74,6 +74,31 @@ TEST_CASE("the table shows every figure with its unit") {
   CHECK_FALSE(contains(text, "\x1b"));
 }
 
+TEST_CASE("how late vehicles responded is a line, whatever the split was") {
+  metrics m{run()};
+  play(m);
+  const auto responds = [&m](provider_id where, duration after) {
+    response_record x{.station = 101,
+                      .sensed_at = at(1s),
+                      .control_at = at(1s + after),
+                      .parts = {{planning, where}}};
+    m.on_record(x);
+  };
+  for (int i = 0; i < 99; ++i)
+    responds(0, i < 60 ? 40ms : 90ms);
+  responds(provider, 210ms);
+  m.finish(at(100s));
+  const auto text = table_of(m);
+  CHECK(contains(text, "\nresponse time                     looks          p50"
+                       "          p99        worst\n"));
+  CHECK(line_of(text, "from look to control")
+        == "  from look to control              100        40 ms        90 ms"
+           "       210 ms");
+  for (const auto width : widths(text))
+    CHECK(width <= 80);
+  CHECK_FALSE(contains(table_of(played()), "response time"));
+}
+
 TEST_CASE("the table ends with the run in three sentences") {
   const auto text = table_of(played());
   const auto end =

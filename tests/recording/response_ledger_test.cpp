@@ -15,6 +15,7 @@ namespace sofof::made_up {
 
 using namespace messages;
 using namespace recording;
+using test::scratch;
 
 namespace {
 
@@ -120,7 +121,7 @@ TEST_CASE("a look that was lost waits for the next one that leads to a plan") {
 }
 
 TEST_CASE("responses are lines of responses.csv and figures of their split, "
-          "and neither is there without a chain") {
+          "and neither is there without planning") {
   const scratch dir;
   auto info = run();
   info.chain = chain;
@@ -150,6 +151,46 @@ TEST_CASE("responses are lines of responses.csv and figures of their split, "
   results later{dir.path(), run()};
   later.finish(at(100s), 2, false);
   CHECK_FALSE(std::filesystem::exists(dir / "responses.csv"));
+}
+
+TEST_CASE("who wants no lines of results gets none of responses, but figures") {
+  const scratch dir;
+  auto info = run();
+  info.chain = {planning};
+  info.cycles = false;
+  results r{dir.path(), info};
+  r.on_record(look_record{101, at(5s), at(5s)});
+  stage_record plan{101, planning, 0, at(5s + 20ms), {}};
+  plan.timing.input_at = at(5s);
+  plan.control_at = at(5s + 30ms);
+  r.on_record(plan);
+  r.finish(at(100s), 2, false);
+  CHECK_FALSE(std::filesystem::exists(dir / "responses.csv"));
+  CHECK(content_of(dir / "summary.json").find("\"p99_ms\": 30")
+        != std::string::npos);
+}
+
+TEST_CASE("planning that does all by itself is measured as a chain of one") {
+  response_ledger ledger{{planning}};
+  std::vector<response_record> all;
+  ledger.add(look_record{101, at(4s), at(4s)});
+  ledger.add(look_record{101, at(4s + 50ms), at(4s + 50ms)});
+  stage_record plan{101, planning, provider, at(4s + 83ms), {}};
+  plan.timing.input_at = at(4s + 50ms);
+  plan.timing.up.travel = 5ms;
+  plan.timing.down.travel = 3ms;
+  plan.control_at = at(4s + 90ms);
+  ledger.add(plan, all);
+  ledger.finish(all);
+  REQUIRE(all.size() == 2);
+  CHECK(all[0].response() == 90ms);
+  CHECK(all[0].waited == 50ms);
+  CHECK(all[1].response() == 40ms);
+  REQUIRE(all[1].parts.size() == 1);
+  CHECK(all[1].parts[0].provider == provider);
+  CHECK(all[1].parts[0].took == 33ms);
+  CHECK(all[1].parts[0].up == 5ms);
+  CHECK(all[1].control == 7ms);
 }
 
 } // namespace sofof::made_up

@@ -31,9 +31,9 @@ def sofof(*arguments):
                           capture_output=True).stdout
 
 
-def run(name, *more):
+def run(name, *more, scenario=SCENARIO):
     folder = os.path.join(WORK, name)
-    sofof("run", SCENARIO, "--quiet", "--duration", "20s", "--out", folder,
+    sofof("run", scenario, "--quiet", "--duration", "20s", "--out", folder,
           *more)
     return folder
 
@@ -492,6 +492,157 @@ class Scatter(unittest.TestCase):
 
     def test_a_phone_need_not_scroll_sideways(self):
         self.assertLessEqual(self.seen(375)["wide"], 375)
+
+
+class Chain(unittest.TestCase):
+    """Of a run with a chain the reader sees who runs what in one vehicle, and
+    how late that responds."""
+
+    FIGURE = """[...document.querySelectorAll("figure")].find(
+        one => one.querySelector("figcaption").textContent
+            === "Split and response time")"""
+    CHART = """sofof.charts.find(
+        one => one.title === "Split and response time")"""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = run("chain", "--set", "provider.0.fails_at=14s",
+                         scenario=os.path.join(SOURCE, "config", "chain",
+                                               "dense.toml"))
+        cls.file = os.path.join(cls.folder, "report.html")
+        sofof("report", cls.folder)
+        away = {row["station"] for row in rows_of(cls.folder, "episodes.csv")}
+        drove = {row["station"] for row in rows_of(cls.folder, "vehicles.csv")}
+        cls.away, cls.home = min(away), min(drove - away)
+
+    def opened(self, page, width=1280, dark=False):
+        page.show(width, 900, dark=dark, mobile=width < 500)
+        page.open(self.file)
+        page.run("sofof.ready")
+        page.run("sofof.draw_all()")
+        page.wait(0.3)
+
+    def choose(self, page, station):
+        page.run(f"""(() => {{
+            const choice = ({self.FIGURE}).closest("section").querySelector(
+                ".choice select");
+            choice.value = "{station}";
+            choice.dispatchEvent(new Event("change"));
+        }})()""")
+
+    def pixels_of(self, page, variable):
+        """How many pixels of the chart have a colour of the page."""
+        return page.run(f"""(() => {{
+            const wanted = getComputedStyle(document.documentElement)
+                .getPropertyValue("{variable}").trim();
+            const rgb = [1, 3, 5].map(
+                i => parseInt(wanted.slice(i, i + 2), 16));
+            const one = ({self.FIGURE}).querySelector("canvas");
+            const {{data}} = one.getContext("2d").getImageData(
+                0, 0, one.width, one.height);
+            let count = 0;
+            for (let i = 0; i < data.length; i += 4)
+                count += data[i + 3] === 255
+                    && rgb.every((part, k) => data[i + k] === part);
+            return count;
+        }})()""")
+
+    def test_one_vehicle_is_shown_with_all_its_responses(self):
+        rows = rows_of(self.folder, "responses.csv")
+        with Browser() as page:
+            self.opened(page)
+            self.assertNotIn("all", page.run(f"""[...({self.FIGURE}).closest(
+                "section").querySelectorAll("option")].map(
+                one => one.textContent)"""))
+            for station in (self.away, self.home):
+                self.choose(page, station)
+                points = page.run(f"({self.CHART}).points")
+                self.assertEqual(points["measured"],
+                                 sum(row["station"] == station
+                                     for row in rows))
+                self.assertGreater(points["allowed by the scene"], 10)
+                self.assertGreaterEqual(
+                    points["admitted by the split's limits"], 2)
+            self.assertEqual(page.errors, [])
+
+    def test_strips_have_the_colours_of_places_in_light_and_dark(self):
+        for dark in (False, True):
+            with self.subTest(dark=dark), Browser() as page:
+                self.opened(page, dark=dark)
+                self.choose(page, self.home)
+                self.assertEqual(self.pixels_of(page, "--series-0"), 0)
+                self.assertGreater(self.pixels_of(page, "--street"), 3000)
+                self.choose(page, self.away)
+                self.assertGreater(self.pixels_of(page, "--series-0"), 3000)
+                # The provider has died: what it ran has fallen back.
+                self.assertGreater(self.pixels_of(page, "--street"), 3000)
+
+    def test_places_and_fallbacks_are_in_the_legend(self):
+        with Browser() as page:
+            self.opened(page)
+            legend = page.run(
+                f"({self.FIGURE}).querySelector('.legend').innerText")
+            for entry in ("measured", "allowed by the scene", "own computer",
+                          "mec", "▼", "fallback"):
+                self.assertIn(entry, legend)
+
+    def test_who_is_clicked_on_the_strips_is_looked_at(self):
+        with Browser() as page:
+            self.opened(page)
+            self.choose(page, self.home)
+            page.run("document.querySelector('.timeline').scrollTop = 0")
+            page.click(".timeline .room .window", 0.5)
+            looked_at = page.run(f"""({self.FIGURE}).closest("section")
+                .querySelector(".choice select").value""")
+            self.assertNotEqual(looked_at, self.home)
+            rows = rows_of(self.folder, "responses.csv")
+            self.assertEqual(page.run(f"({self.CHART}).points.measured"),
+                             sum(row["station"] == looked_at for row in rows))
+            self.assertEqual(page.errors, [])
+
+    def test_no_label_covers_another_on_paper_or_in_files(self):
+        with Browser() as page:
+            self.opened(page)
+            self.choose(page, self.away)
+            page.run("dispatchEvent(new Event('beforeprint'))")
+            texts = json.loads(page.run(f"""(() => {{
+                const paper = ({self.FIGURE}).querySelector(".on-paper");
+                paper.style.display = "block";
+                return JSON.stringify([...paper.querySelectorAll("text")].map(
+                    (one) => {{
+                        const {{left, right, top, bottom}} =
+                            one.getBoundingClientRect();
+                        return {{text: one.textContent, left, right, top,
+                                 bottom}};
+                    }}));
+            }})()"""))
+            names = [one["text"] for one in texts]
+            for name in (f"vehicle {self.away}", "tracking",
+                         "environment model", "trajectory planning",
+                         "response time, ms", "time, s", "100", "1000"):
+                self.assertIn(name, names)
+            for i, one in enumerate(texts):
+                for other in texts[:i]:
+                    self.assertFalse(
+                        one["left"] < other["right"]
+                        and other["left"] < one["right"]
+                        and one["top"] < other["bottom"] - 3
+                        and other["top"] < one["bottom"] - 3,
+                        f"{one['text']} on {other['text']}")
+            self.assertEqual(page.errors, [])
+
+    def test_a_phone_need_not_scroll_sideways(self):
+        with Browser() as page:
+            self.opened(page, 375)
+            self.assertLessEqual(
+                page.run("document.documentElement.scrollWidth"), 375)
+
+    def test_all_vehicles_have_three_strips_under_the_map(self):
+        with Browser() as page:
+            self.opened(page)
+            self.assertIn("tracking, environment_model, trajectory_planning",
+                          page.run("document.querySelector('.player')"
+                                   ".innerText"))
 
 
 class Comparison(unittest.TestCase):

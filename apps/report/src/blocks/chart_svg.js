@@ -1,9 +1,12 @@
 // A figure as SVG: on paper, and in a file.
 import { picture, svg } from "../pictures/svg.js";
+import { SvgContext } from "../pictures/svg_context.js";
 import { colour } from "../theme.js";
-import { decade_text, decades_to_one, round_steps, short } from "./axis_steps.js";
+import { decade_text, decades_to_one, log_axis, round_steps, short } from "./axis_steps.js";
+import { draw_strips, legend_of_strips, strips_height } from "./strips.js";
 
-const room = { right: 16, top: 12, bottom: 46 };
+const room = { right: 16, bottom: 46 };
+const top_of = (block) => 12 + strips_height(block);
 const letter = 6.6; // width, at 12 px
 const line_height = 18;
 const two = (x) => Number(x.toFixed(1));
@@ -25,22 +28,28 @@ function linear_scale(low, high, from, to, count) {
   return { steps, text: short, at: (x) => from + ((x - first) / (last - first)) * (to - from) };
 }
 
-function log_scale(low, from, to) {
-  const steps = decades_to_one(low);
-  const first = Math.log10(steps[0]);
+function log_scale({ steps, low, high }, from, to) {
+  const span = Math.log10(high / low);
   return {
     steps,
     text: decade_text,
-    at: (x) => from + ((Math.log10(x) - first) / -first) * (to - from),
+    at: (x) => from + (Math.log10(Math.max(x, low) / low) / span) * (to - from),
   };
+}
+
+/// Shares end at 1.
+function tail_axis(least) {
+  const steps = decades_to_one(least);
+  return { steps, low: steps[0], high: 1 };
 }
 
 function scales(block, curves, width, height, log) {
   const [low, high] = extremes(curves.flatMap(({ y, low: l, high: h }) => [y, l, h]));
   const levels = block.levels.map(([at]) => at);
+  const [bottom, top] = [height - room.bottom, top_of(block)];
   const y = log
-    ? log_scale(low, height - room.bottom, room.top)
-    : linear_scale(Math.min(0, low, ...levels), Math.max(0, high, ...levels), height - room.bottom, room.top, 6);
+    ? log_scale(block.log_y ? log_axis(curves.map((one) => one.y)) : tail_axis(low), bottom, top)
+    : linear_scale(Math.min(0, low, ...levels), Math.max(0, high, ...levels), bottom, top, 6);
   const left = 30 + letter * Math.max(...y.steps.map((step) => y.text(step).length));
   const [from, until] = extremes(curves.map((curve) => curve.x));
   const marks = block.marks.map(([at]) => at);
@@ -49,13 +58,13 @@ function scales(block, curves, width, height, log) {
 }
 
 function axes(block, { x, y, left }, width, height) {
-  const [bottom, right] = [height - room.bottom, width - room.right];
+  const [top, bottom, right] = [top_of(block), height - room.bottom, width - room.right];
   const grid = (x1, x2, y1, y2) => svg("line", { x1, x2, y1, y2, stroke: colour("line") });
   const text = (x, y, anchor, what, more = {}) =>
     svg("text", { x, y, "text-anchor": anchor, fill: colour("soft"), "font-size": 12, ...more }, what);
-  const middle = (room.top + bottom) / 2;
+  const middle = (top + bottom) / 2;
   return [
-    ...x.steps.map((step) => grid(two(x.at(step)), two(x.at(step)), room.top, bottom)),
+    ...x.steps.map((step) => grid(two(x.at(step)), two(x.at(step)), top, bottom)),
     ...y.steps.map((step) => grid(left, right, two(y.at(step)), two(y.at(step)))),
     ...x.steps.map((step) => text(two(x.at(step)), bottom + 16, "middle", x.text(step))),
     ...y.steps.map((step) => text(left - 6, two(y.at(step)) + 4, "end", y.text(step))),
@@ -148,7 +157,13 @@ function curve_elements(curve, scale) {
       }),
     ];
   if (style === "steps" || style === "tail")
-    return [svg("path", { ...stroke, d: steps_path(x, y, scale, style === "tail") })];
+    return [
+      svg("path", {
+        ...stroke,
+        d: steps_path(x, y, scale, style === "tail"),
+        "stroke-dasharray": dashed ? "6 4" : null,
+      }),
+    ];
   const area = low && high ? band_path(x, low, high, scale) : "";
   const dots = lone_points_path(x, y, scale);
   return [
@@ -162,7 +177,7 @@ function curve_elements(curve, scale) {
 
 /// Limits, with their names.
 function limit_elements(block, { x, y, left }, width, height) {
-  const [bottom, right] = [height - room.bottom, width - room.right];
+  const [top, bottom, right] = [top_of(block), height - room.bottom, width - room.right];
   const line = (x1, x2, y1, y2) =>
     svg("line", { x1, x2, y1, y2, stroke: colour("alarm"), "stroke-dasharray": "4 3" });
   const name = (x, y, anchor, what) =>
@@ -172,19 +187,25 @@ function limit_elements(block, { x, y, left }, width, height) {
       const place = two(x.at(at));
       const leftwards = place - left > (right - left) / 2;
       return [
-        line(place, place, room.top, bottom),
-        name(place + (leftwards ? -6 : 6), room.top + 14 + 17 * i, leftwards ? "end" : "start", what),
+        line(place, place, top, bottom),
+        name(place + (leftwards ? -6 : 6), top + 14 + 17 * i, leftwards ? "end" : "start", what),
       ];
     }),
     ...block.levels.flatMap(([at, what]) => {
       const place = two(y.at(at));
-      const below = place - room.top < line_height; // else it is cut off
+      const below = place - top < line_height; // else it is cut off
       return [
         line(left, right, place, place),
         name(right - 4, place + (below ? 14 : -5), "end", what),
       ];
     }),
   ];
+}
+
+function strip_elements(block, station, { x, left }, width) {
+  const context = new SvgContext();
+  draw_strips(context, block, station, { left, right: width - room.right, at: x.at });
+  return context.elements;
 }
 
 /// @returns entries and how many lines of them there are.
@@ -208,12 +229,17 @@ function legend_elements(curves, width, top) {
 }
 
 /// @param curves  As drawn: { name, style, dashed, paint, x, y, low, high }.
-/// @param log     Whether y is a share on a logarithmic axis.
+/// @param log     Whether y has a logarithmic axis.
 /// @param alone   Whether title and legend are in the picture.
-export function chart_svg(block, curves, { width, height, log = false, alone = false }) {
+/// @param station Whose strips are above the curves.
+export function chart_svg(
+  block,
+  curves,
+  { width, height, log = false, alone = false, station = null },
+) {
   const shown = curves.filter(({ x }) => x.length);
   const head = alone && block.title ? 28 : 0;
-  const below = alone ? legend_elements(curves, width, head + height) : { all: [], height: 0 };
+  const below = alone ? legend_elements([...curves, ...legend_of_strips(block)], width, head + height) : { all: [], height: 0 };
   const scale = shown.length ? scales(block, shown, width, height, log) : null;
   return picture(
     width,
@@ -231,6 +257,7 @@ export function chart_svg(block, curves, { width, height, log = false, alone = f
             ...axes(block, scale, width, height),
             ...shown.flatMap((curve) => curve_elements(curve, scale)),
             ...limit_elements(block, scale, width, height),
+            ...strip_elements(block, station, scale, width),
           ]
         : []),
     ),

@@ -3,13 +3,17 @@
 import { colour, series_colour } from "../theme.js";
 import { unpack } from "../unpack.js";
 
-/// Curves take colours in their order, or their provider's. Somebody else's,
-/// dashed, share those of ours; a single one is grey.
+/// Of curves that mean the same wherever they are.
+const meanings = { measured: "ink", allowed: "better", admitted: "alarm" };
+
+/// Curves take colours in their order, or their provider's, or what they mean.
+/// Somebody else's, dashed, share those of ours; a single one is grey.
 export function colours_of(curves) {
   const dashed = curves.filter((curve) => curve.dashed);
   const solid = curves.filter((curve) => !curve.dashed);
   return curves.map((curve) => {
     if (curve.provider !== undefined) return () => series_colour(curve.provider);
+    if (curve.means) return () => colour(meanings[curve.means]);
     if (curve.dashed && dashed.length === 1) return () => colour("soft");
     const place = (curve.dashed ? dashed : solid).indexOf(curve);
     return () => series_colour(place);

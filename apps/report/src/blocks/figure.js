@@ -6,13 +6,14 @@ import { downloads } from "../pictures/download.js";
 import { on_paper } from "../print.js";
 import { colour, is_dark, on_theme } from "../theme.js";
 import { aligned } from "./aligned.js";
-import { decade_text, decades_to_one } from "./axis_steps.js";
+import { decade_text, decades_to_one, log_axis } from "./axis_steps.js";
 import { chart_svg } from "./chart_svg.js";
 import { colours_of, drawn_columns, unpacked } from "./curves.js";
 import { draw_limits } from "./limits.js";
+import { draw_strips_on, strips_height, strips_legend } from "./strips.js";
 import { unit_of } from "./unit.js";
 
-const height = 280;
+const curves_height = 280;
 const saved_size = { width: 720, height: 400 };
 const paper_size = { width: 520, height: 300 };
 const font = "12px system-ui, sans-serif";
@@ -115,7 +116,7 @@ function legend_of(block, colours, toggle) {
     );
     return button;
   });
-  return { shown: element("div.legend", {}, ...entries), values };
+  return { shown: element("div.legend", {}, ...entries, ...strips_legend(block)), values };
 }
 
 const short = (x) => (x == null ? "" : Number(x.toPrecision(5)).toString());
@@ -136,7 +137,7 @@ class Shown {
   }
 
   get log() {
-    return this.is_tail && !this.cumulative;
+    return this.is_tail ? !this.cumulative : Boolean(this.block.log_y);
   }
 
   /// Labels as they are now.
@@ -173,8 +174,11 @@ class Shown {
       .filter((_, i) => !this.hidden.has(i));
   }
 
-  picture(size) {
-    return chart_svg(this.labels, this.curves, { ...size, log: this.log });
+  /// @param alone  Whether title and legend are in it.
+  picture({ width, height }, alone = false) {
+    const { station, log } = this;
+    const size = { width, height: height + strips_height(this.block) };
+    return chart_svg(this.labels, this.curves, { ...size, log, alone, station });
   }
 
   /// @returns a line for each point: the curve's name, x, y and what else.
@@ -229,31 +233,37 @@ function bands_of(shown, layout) {
 
 function scales_of(shown) {
   const { marks, levels } = shown.block;
+  const ends = (low) => {
+    if (shown.is_tail) return [low === null ? 0.1 : decades_to_one(low)[0], 1];
+    return [shown.log_axis.low, shown.log_axis.high];
+  };
   return {
     x: { time: false, range: (u, low, high) => x_range(u, low, high, marks) },
     y: shown.log
-      ? { distr: 3, log: 10, range: (u, low) => [low === null ? 0.1 : decades_to_one(low)[0], 1] }
+      ? { distr: 3, log: 10, range: (u, low) => ends(low) }
       : { range: (u, low, high) => y_range(u, low, high, levels) },
   };
 }
 
 function axes_of(shown) {
   const { x_label, y_label } = shown.labels;
-  const decades = shown.log
+  const of_decades = shown.log
     ? {
-        splits: (u) => decades_to_one(u.scales.y.min),
+        splits: (u) => (shown.is_tail ? decades_to_one(u.scales.y.min) : shown.log_axis.steps),
         filter: (u, splits) => splits,
         values: (u, splits) => splits.map(decade_text),
       }
     : {};
-  return [axis(x_label, 26), { ...axis(y_label, width_of), ...decades }];
+  return [axis(x_label, 26), { ...axis(y_label, width_of), ...of_decades }];
 }
 
 /// The time of the drives, on charts by time; a click there goes to its time.
-function follow_clock(space, plot_now) {
+/// @param above  Pixels above the curves that are by time, too.
+function follow_clock(space, plot_now, above) {
   const clock = hook.players.at(-1)?.clock;
   if (!clock) return () => {};
   const line = element("div.clock-line", { hidden: true });
+  line.style.top = `${-above}px`;
   let pressed_at = null;
   space.addEventListener("pointerdown", (event) => (pressed_at = event.clientX), true);
   space.addEventListener("click", (event) => {
@@ -293,10 +303,13 @@ function tail_choice(shown, redraw) {
 /// vehicle's points, or all for null.
 export function figure_block(block) {
   const shown = new Shown(block);
+  const strips = strips_height(block);
+  const height = curves_height + strips;
   const space = element("div.chart", { role: "img", "aria-label": block.title });
   space.style.height = `${height}px`;
   let plot = null;
   let layout = []; // of the series: [curve, role]
+  let values = []; // of the series, as they are
 
   const legend = legend_of(block, shown.colours, (i, yes) => {
     if (yes) shown.hidden.delete(i);
@@ -318,7 +331,12 @@ export function figure_block(block) {
     entry.points = Object.fromEntries(
       block.curves.map((curve, i) => [curve.name, curves[i].x.length]),
     );
-    return aligned(curves);
+    values = aligned(curves);
+    if (!shown.log || shown.is_tail) return values;
+    const [x, ...columns] = values;
+    shown.log_axis = log_axis(columns);
+    const { low } = shown.log_axis;
+    return [x, ...columns.map((column) => column.map((y) => (y < low && y !== null ? low : y)))];
   }
 
   function show_values() {
@@ -329,9 +347,9 @@ export function figure_block(block) {
       if (role !== "y") return;
       const place = idxs?.[k + 1] ?? idx;
       legend.values[i].textContent =
-        idx == null || place == null || plot.data[k + 1][place] == null
+        idx == null || place == null || values[k + 1][place] == null
           ? ""
-          : `${short(plot.data[k + 1][place])}${unit_of(y_label)}`;
+          : `${short(values[k + 1][place])}${unit_of(y_label)}`;
     });
   }
 
@@ -346,7 +364,7 @@ export function figure_block(block) {
         legend: { show: false },
         scales: scales_of(shown),
         axes: axes_of(shown),
-        padding: [8, 12, 0, 0],
+        padding: [8 + strips, 12, 0, 0],
         series: [{}, ...series_of(shown, layout)],
         bands: bands_of(shown, layout),
         cursor: {
@@ -355,7 +373,7 @@ export function figure_block(block) {
           drag: { x: true, y: false },
         },
         hooks: {
-          draw: [(u) => draw_limits(u, block)],
+          draw: [(u) => draw_limits(u, block), (u) => draw_strips_on(u, block, shown.station)],
           setCursor: [show_values],
           setScale: [() => show_time()],
           setSize: [() => show_time()],
@@ -368,7 +386,7 @@ export function figure_block(block) {
     show_time();
   }
   const redraw = () => plot && draw();
-  const show_time = block.by_clock ? follow_clock(space, () => plot) : () => {};
+  const show_time = block.by_clock ? follow_clock(space, () => plot, strips) : () => {};
 
   const entry = { title: block.title, drawn: false, points: null, draw };
   hook.charts.push(entry);
@@ -386,8 +404,7 @@ export function figure_block(block) {
   on_theme(redraw);
 
   const tools = downloads(block.title, {
-    picture: () =>
-      chart_svg(shown.labels, shown.curves, { ...saved_size, log: shown.log, alone: true }),
+    picture: () => shown.picture(saved_size, true),
     rows: () => shown.rows,
   });
   if (shown.is_tail) tools.prepend(tail_choice(shown, redraw));

@@ -56,12 +56,13 @@ export class Drive {
       ]),
     ].sort((a, b) => a - b);
     // Trajectories are what a vehicle's colour is about.
-    this.first_service = this.services[0] ?? "";
+    this.chain ??= [];
+    this.planner = this.chain.at(-1) ?? this.services[0] ?? "";
     this.offloaded = new Map(this.stations.map((station) => [station, []]));
     for (const one of this.offloadings) this.offloaded.get(one.station).push(one);
     this.planned = new Map();
     for (const [station, all] of this.offloaded)
-      this.planned.set(station, all.filter(({ service }) => service === this.first_service));
+      this.planned.set(station, all.filter(({ service }) => service === this.planner));
     this.driven = new Map(
       this.vehicles.map(({ station, t }) => [station, [t[0], t[t.length - 1]]]),
     );

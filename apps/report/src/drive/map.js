@@ -15,9 +15,11 @@ const paper_width = 680;
 const letter_width = 6.4; // of a station's digit, pixels
 
 export class DriveMap {
-  constructor(drive, clock) {
+  /// @param look  Is called with the station that the reader looks at.
+  constructor(drive, clock, look) {
     this.drive = drive;
     this.clock = clock;
+    this.look = look;
     this.view = new View(bounds_of(drive));
     this.labels = drive.vehicles.length <= 12;
     this.followed = null;
@@ -237,6 +239,7 @@ export class DriveMap {
       this.view.fit();
     } else {
       this.followed = station;
+      this.look(station);
       const wanted = 4; // pixels per metre
       if (this.view.scale < wanted) this.view.zoom_by(wanted / this.view.scale);
     }

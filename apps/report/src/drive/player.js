@@ -133,7 +133,9 @@ function obey_key(event) {
 export function player(blocks) {
   const drives = blocks.map((block) => new Drive(block));
   const clock = new Clock(Math.max(...drives.map((drive) => drive.until)));
-  const maps = drives.map((drive) => new DriveMap(drive, clock));
+  const watchers = [];
+  const look = (station) => watchers.forEach((tell) => tell(station));
+  const maps = drives.map((drive) => new DriveMap(drive, clock, look));
   const several = drives.length > 1;
   const columns = drives.map((drive, i) => {
     const remark = remark_on(drive);
@@ -151,7 +153,10 @@ export function player(blocks) {
       "div.drive",
       {},
       several ? element("h3", {}, drive.name) : null,
-      drive.stations.length ? new Timeline(drive, clock).shown : null,
+      drive.stations.length ? new Timeline(drive, clock, look).shown : null,
+      drive.chain.length
+        ? element("p.note", {}, `Strips of a vehicle, from above: ${drive.chain.join(", ")}.`)
+        : null,
       event_list(drive, clock),
     ),
   );
@@ -170,6 +175,7 @@ export function player(blocks) {
   hook.players.push({
     clock,
     drives,
+    on_look: (tell) => watchers.push(tell),
     views: maps.map((map) => map.view),
     vehicles: () => drives.map((drive) => drive.vehicles_at(clock.time)),
     track_rows: drives.map((drive) =>

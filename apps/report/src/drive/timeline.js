@@ -10,6 +10,7 @@ import { draw_mark } from "./event_groups.js";
 const row_height = 24;
 const strip_height = 10;
 const thin_height = 3; // of further services, below
+const link_height = 5; // of a service of a chain
 const gutter = 46; // for the stations
 const rim = 18;
 const axis_height = 22;
@@ -29,10 +30,25 @@ export function clock_text(time) {
 }
 
 export class Timeline {
-  constructor(drive, clock) {
+  /// @param look  Is called with the station that the reader looks at.
+  constructor(drive, clock, look) {
     this.drive = drive;
     this.clock = clock;
+    this.look = look;
     this.rows = drive.stations;
+    const { chain, services } = drive;
+    /// Services from above: those of a chain are alike, else the first is broad.
+    this.laid_out = [...chain, ...services.filter((one) => !chain.includes(one))];
+    const heights = this.laid_out.map((_, i) => {
+      if (i < chain.length) return link_height;
+      return i ? thin_height : strip_height;
+    });
+    this.lanes = [[0, strip_height]];
+    let lower = 0;
+    heights.forEach((height, i) => {
+      this.lanes[i] = [lower, height];
+      lower += height + 1;
+    });
     this.marked = new Map(drive.stations.map((station) => [station, []]));
     this.marked_of_all = [];
     for (const event of drive.marked)
@@ -198,13 +214,12 @@ export class Timeline {
     context.textAlign = "right";
     context.fillText(`${station}`, gutter - 8, top + strip_height / 2);
     const driven = drive.driven.get(station);
-    if (driven) this.bar(context, driven, top, strip_height, colour("strip"));
+    for (const [lower, height] of this.lanes.slice(0, drive.chain.length || 1))
+      if (driven) this.bar(context, driven, top + lower, height, colour("strip"));
     for (const { from, until, service, provider } of drive.offloaded.get(station)) {
-      const place = drive.services.indexOf(service);
+      const [lower, height] = this.lanes[Math.max(0, this.laid_out.indexOf(service))];
       const paint = series_colour(drive.place_of(provider));
-      const lower = top + strip_height + 1 + (place - 1) * (thin_height + 1);
-      if (place <= 0) this.bar(context, [from, until], top, strip_height, paint);
-      else this.bar(context, [from, until], lower, thin_height, paint);
+      this.bar(context, [from, until], top + lower, height, paint);
     }
     for (const { t, group } of this.marked.get(station))
       if (drive.groups.shows(group)) draw_mark(context, group, this.left(t), row_top + 1);
@@ -223,6 +238,9 @@ export class Timeline {
   press(event) {
     this.canvas.setPointerCapture(event.pointerId);
     this.clock.seek(this.time_at(event));
+    const top = event.clientY - this.canvas.getBoundingClientRect().top;
+    const station = this.rows[this.row_at(top)];
+    if (station !== undefined) this.look(station);
   }
 
   /// Seeks while the button is down; tells about the offloading below.
