@@ -240,7 +240,10 @@ private:
               std::string_view why);
   question question_of(const open_request& open, time_point now);
   std::vector<policies::central_decision>
-  ask_policy(std::span<const policies::request_view> asked, time_point now);
+  ask_policy(std::vector<policies::request_view> asked, time_point now);
+  policies::chain_links
+  links_of(station_id station, std::string_view service,
+           std::span<const policies::request_view> asked) const;
   void respond(const open_request& open,
                const std::vector<policies::central_decision>& decisions,
                time_point now);

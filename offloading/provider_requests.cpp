@@ -88,8 +88,7 @@ void provider::answer(std::vector<open_request> requests, time_point now) {
   std::vector<policies::request_view> asked;
   for (const auto& q : questions)
     asked.insert(asked.end(), q.asked.begin(), q.asked.end());
-  const auto decided = ask_policy(asked, now);
-  assert(decided.size() <= asked.size());
+  const auto decided = ask_policy(std::move(asked), now);
   auto next = decided.begin();
   for (auto& q : questions)
     for (const auto place : q.places)
@@ -153,20 +152,24 @@ provider::question provider::question_of(const open_request& open,
 // @returns one decision for each request, or fewer; sessions that the policy
 // wants to be rid of are ended.
 std::vector<policies::central_decision>
-provider::ask_policy(std::span<const policies::request_view> asked,
+provider::ask_policy(std::vector<policies::request_view> asked,
                      time_point now) {
+  for (auto& x : asked)
+    x.links = links_of(x.station, x.service, asked);
   std::vector<policies::session_view> sessions;
   std::vector<messages::session_id> running;
   for (const auto& [id, station] : stations_)
     for (const auto& x : station.sessions) {
-      sessions.push_back({.station = id,
-                          .service = x.session.service.view(),
-                          .since = x.since,
-                          .task = x.task,
-                          .worker = x.worker,
-                          .utilisation = utilisation_by(x.session.service),
-                          .candidates = x.candidates,
-                          .at_most = at_most(*find(x.session.service))});
+      sessions.push_back(
+          {.station = id,
+           .service = x.session.service.view(),
+           .since = x.since,
+           .task = x.task,
+           .worker = x.worker,
+           .utilisation = utilisation_by(x.session.service),
+           .candidates = x.candidates,
+           .at_most = at_most(*find(x.session.service)),
+           .links = links_of(id, x.session.service.view(), asked)});
       running.push_back(x.session);
     }
   assert(running.size() == sessions.size());
@@ -190,6 +193,33 @@ provider::ask_policy(std::span<const policies::request_view> asked,
     decided.resize(asked.size());
   assert(decided.size() <= asked.size());
   return decided;
+}
+
+// @param service  One that is offered here.
+// @param asked    What the policy is asked about now.
+policies::chain_links
+provider::links_of(station_id station, std::string_view service,
+                   std::span<const policies::request_view> asked) const {
+  using policies::link_place;
+  const auto place_of = [&](const messages::service_name& name) {
+    const auto is_meant = [&](const policies::request_view& x) {
+      return x.station == station && x.service == name.view();
+    };
+    if (std::ranges::any_of(asked, is_meant))
+      return link_place::asked;
+    const auto known = stations_.find(station);
+    return known != stations_.end() && known->second.find(name)
+               ? link_place::here
+               : link_place::elsewhere;
+  };
+  policies::chain_links links;
+  if (const auto& name = find(messages::service_name{service})->follows;
+      !name.view().empty())
+    links.follows = {name.view(), place_of(name)};
+  for (const auto& x : setup_.services)
+    if (x.follows.view() == service)
+      links.followed_by = {x.name.view(), place_of(x.name)};
+  return links;
 }
 
 void provider::respond(const open_request& open,

@@ -123,7 +123,7 @@ onboard_service in_vehicle(const service& what, const vehicle_context& where) {
 
 offered_service at_provider(const service& what,
                             const provider_context& where) {
-  return {what.name, what.options, what.at_provider(where)};
+  return {what.name, what.options, what.at_provider(where), what.follows};
 }
 
 } // namespace sofof::offloading

@@ -217,6 +217,7 @@ struct offered_service {
   messages::service_name name;
   service_options options;                ///< Limits and period > 0.
   std::shared_ptr<provider_service> here; ///< Not null.
+  messages::service_name follows{}; ///< Of whose results its inputs are made.
 };
 
 /// @returns the service as that vehicle has it.

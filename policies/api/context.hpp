@@ -123,6 +123,27 @@ inline const provider_view* where_it_runs(const local_context& context) {
   return found == all.end() ? nullptr : &*found;
 }
 
+/// Where a service is for a vehicle, as far as a provider can know.
+enum class link_place {
+  none,      ///< There is no such service, that the provider knew of.
+  elsewhere, ///< In the vehicle, or at another provider: it is not told.
+  asked,     ///< The vehicle asks for it now, too.
+  here,      ///< This provider runs it for the vehicle.
+};
+
+/// A service next to another one in a chain.
+struct linked_service {
+  std::string_view service; ///< Its name; empty for `none`.
+  link_place at = link_place::none;
+};
+
+/// What a provider knows of the chain that a service is part of.
+struct chain_links {
+  linked_service follows;     ///< Of whose results its inputs are made.
+  linked_service followed_by; ///< Whose inputs are made of its results; one
+                              ///< that is not offered here is not known.
+};
+
 /// One service that a vehicle asks for.
 struct request_view {
   station_id station = 0;
@@ -137,8 +158,10 @@ struct request_view {
   /// the jitter of cycles that are called by inputs.
   periodic_task at_most{};
   /// What the vehicle wins by each provider that it could ask, this one among
-  /// them: policies/api/gain.hpp.
+  /// them: policies/api/gain.hpp. Of services that it asks for together, it is
+  /// told for the first, and all have the same.
   std::span<const candidate> candidates{};
+  chain_links links{};
 };
 
 /// One service of one station that runs now.
@@ -151,6 +174,7 @@ struct session_view {
   double utilisation = 0; ///< What it adds to that of the provider.
   std::span<const candidate> candidates{}; ///< As the vehicle asked for it.
   periodic_task at_most{};                 ///< As a request has it.
+  chain_links links{};
 };
 
 /// What a provider weighs: requests, and what runs already.

@@ -25,6 +25,7 @@ public:
     auto& p = asked.what;
     const auto worth = energy_weight_ * unit_j_;
     p.gains *= worth;
+    p.lost_alone *= worth;
     p.switching_price *= worth;
     int vehicle = 0;
     for (const auto& request : context.requests)

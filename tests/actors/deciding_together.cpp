@@ -293,3 +293,51 @@ TEST_CASE_FIXTURE(provider_world, "who asks by the name that the provider had "
     CHECK(v.why == "not heard here");
   }
 }
+
+namespace {
+
+/// "two" is made of the results of "one".
+struct chained_world : provider_world {
+  chained_world() {
+    auto made = setup();
+    made.services[1].follows = one;
+    provider = own(spawn_service_provider(system(), std::move(made)));
+    hear(inside);
+    hear(inside, neighbour, 102);
+  }
+  static bool is(const linked_service& link, std::string_view service,
+                 link_place at) {
+    return link.service == service && link.at == at;
+  }
+};
+
+} // namespace
+
+TEST_CASE_FIXTURE(chained_world, "a CODM is told which service a request "
+                                 "follows, and whether it is here") {
+  ask(make_request({two}));
+  REQUIRE(codm->links.size() == 1);
+  CHECK(is(codm->links[0].follows, "one", link_place::elsewhere));
+  CHECK(is(codm->links[0].followed_by, "", link_place::none));
+  ask(make_request({one, two}));
+  REQUIRE(codm->links.size() == 2);
+  CHECK(is(codm->links[0].follows, "", link_place::none));
+  CHECK(is(codm->links[0].followed_by, "two", link_place::asked));
+  CHECK(is(codm->links[1].follows, "one", link_place::asked));
+  ask(make_request({two})); // "one" goes on
+  REQUIRE(codm->links.size() == 1);
+  CHECK(is(codm->links[0].follows, "one", link_place::here));
+  REQUIRE(codm->sessions.size() == 1);
+  CHECK(is(codm->sessions[0].links.followed_by, "two", link_place::asked));
+}
+
+TEST_CASE_FIXTURE(chained_world, "what runs for one vehicle is not here for "
+                                 "another one") {
+  ask(make_request({one}));
+  tell(provider, service_request{boot, 102, 1, {two}, {inside}, 10},
+       neighbour.handle);
+  REQUIRE(codm->links.size() == 1);
+  CHECK(is(codm->links[0].follows, "one", link_place::elsewhere));
+  REQUIRE(codm->sessions.size() == 1);
+  CHECK(is(codm->sessions[0].links.followed_by, "two", link_place::elsewhere));
+}

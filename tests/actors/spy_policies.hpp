@@ -103,6 +103,7 @@ struct codm_script {
   std::vector<policies::session_view> sessions; ///< Of the latest question.
   std::vector<candidate> served;                ///< Told of its first session.
   std::vector<candidate> candidates;            ///< Of its first request.
+  std::vector<policies::chain_links> links;     ///< Of its requests.
   std::set<std::string, std::less<>> accepted{"one", "two"};
   std::size_t worker = 0;               ///< Assigned to all.
   std::optional<duration> offset;       ///< Likewise.
@@ -129,8 +130,11 @@ public:
                             {first.route.begin(), first.route.end()},
                             first.speed_mps,
                             {}};
-    for (const auto& request : c.requests)
+    script_->links.clear();
+    for (const auto& request : c.requests) {
       q.services.emplace_back(request.service);
+      script_->links.push_back(request.links);
+    }
     script_->sessions.assign(c.sessions.begin(), c.sessions.end());
     script_->candidates.assign(first.candidates.begin(),
                                first.candidates.end());

@@ -9,7 +9,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace sofof::policies::assignment {
 
@@ -52,6 +54,43 @@ double all_local(const problem& p) {
   return value(p, std::vector<choice>(p.vehicles(), local));
 }
 
+/// Some vehicles lean on others with a lower or a higher index.
+void lean_at_random(problem& p, dice& random) {
+  p.leans_on.resize(static_cast<std::size_t>(p.vehicles()));
+  p.lost_alone = table_between(random, p.vehicles(), p.providers(), 0, 1);
+  const auto up = below(random, 2) == 0;
+  for (int v = 1; v < p.vehicles(); ++v)
+    if (below(random, 2) == 0)
+      p.leans_on[up ? v : p.vehicles() - 1 - v] = up ? v - 1 : p.vehicles() - v;
+}
+
+/// The objective of choices, as its formula is written.
+double sum_leaning(const problem& p, const std::vector<choice>& choices) {
+  double sum = 0;
+  for (int v = 0; v < p.vehicles(); ++v) {
+    const auto c = choices[v];
+    sum += test::objective(p, v, c);
+    if (const auto on = p.leans_on[v]; c && on && choices[*on] != c)
+      sum -= p.lost_alone(v, *c);
+  }
+  return sum;
+}
+
+/// @returns the greatest objective of choices from one vehicle on; tries all.
+double best_leaning(const problem& p, std::vector<choice>& choices, int from) {
+  if (from == p.vehicles())
+    return feasible(p, choices) ? sum_leaning(p, choices) : -1e9;
+  choices[from] = local;
+  auto best = best_leaning(p, choices, from + 1);
+  for (int i = 0; i < p.providers(); ++i)
+    if (p.eligible(from, i)) {
+      choices[from] = i;
+      best = std::max(best, best_leaning(p, choices, from + 1));
+    }
+  choices[from] = local;
+  return best;
+}
+
 } // namespace
 
 TEST_CASE("branch and bound finds what trying everything finds") {
@@ -65,6 +104,55 @@ TEST_CASE("branch and bound finds what trying everything finds") {
     CHECK(found.best.value == value(p, found.best.choices));
     CHECK(std::abs(found.best.value - best_by_trying(p)) < rounding);
   }
+}
+
+TEST_CASE("where vehicles lean on others, branch and bound finds what trying "
+          "everything finds, and all others what is possible") {
+  dice random{31};
+  int flows = 0;
+  for (int k = 0; k < 200; ++k) {
+    CAPTURE(k);
+    auto p = any_problem(random);
+    if (p.vehicles() > 6)
+      continue;
+    p.gains -= 0.3;
+    lean_at_random(p, random);
+    std::vector<choice> choices(p.vehicles());
+    const auto best = best_leaning(p, choices, 0);
+    const auto found = branch_and_bound(p);
+    CHECK(found.proved);
+    CHECK(feasible(p, found.best.choices));
+    CHECK(std::abs(found.best.value - best) < rounding);
+    CHECK(std::abs(sum_leaning(p, found.best.choices) - best) < rounding);
+    for (const auto& one :
+         {greedy_regret(p), sampled(p, {}, random_stream{1, "leaning"})}) {
+      CHECK(feasible(p, one.choices));
+      CHECK(std::abs(one.value - sum_leaning(p, one.choices)) < rounding);
+      CHECK(one.value >= all_local(p) - rounding);
+      CHECK(one.value <= best + rounding);
+    }
+    if (const auto flow = min_cost_flow(p)) {
+      ++flows;
+      CHECK(std::abs(flow->value - best) < rounding);
+    }
+  }
+  CHECK(flows > 0);
+}
+
+TEST_CASE("who leans in a circle, or on nobody there is, or wins by being "
+          "alone, is refused") {
+  auto p = open_problem(2, 1);
+  p.lost_alone = pair_table::Zero(2, 1);
+  p.leans_on = {1, 0};
+  CHECK_THROWS_AS(check(p), std::invalid_argument);
+  p.leans_on = {std::nullopt, 2};
+  CHECK_THROWS_AS(check(p), std::invalid_argument);
+  p.leans_on = {std::nullopt};
+  CHECK_THROWS_AS(check(p), std::invalid_argument);
+  p.leans_on = {std::nullopt, 0};
+  check(p);
+  p.lost_alone(1, 0) = -0.1;
+  CHECK_THROWS_AS(check(p), std::invalid_argument);
 }
 
 #ifdef SOFOF_WITH_CBC

@@ -15,7 +15,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-const std::filesystem::path light_chain =
+const std::filesystem::path light_scenario =
     std::filesystem::path{SOFOF_SOURCE_DIR} / "config/chain/light.toml";
 
 /// The whole chain is offloaded; now and then nothing gets through.
@@ -28,7 +28,7 @@ scenario::scenario_definition falling_silent(bool is_warm) {
     for (const auto* name :
          {"tracking", "environment_model", "trajectory_planning"})
       changes.push_back(fmt::format("service.{}.warm_standby=2s", name));
-  return scenario::load_scenario(light_chain, changes);
+  return scenario::load_scenario(light_scenario, changes);
 }
 
 } // namespace

@@ -31,29 +31,56 @@ struct decision {
   }
 };
 
-decision decision_of(const reduced_problem& s, const Eigen::ArrayXXd& prices,
-                     int vehicle) {
+/// @returns by index whether anybody leans on a vehicle.
+std::vector<bool> leaned_on(const problem& p) {
+  std::vector<bool> all(p.vehicles());
+  for (const auto& on : p.leans_on)
+    if (on)
+      all[*on] = true;
+  return all;
+}
+
+/// @param supports  Whether others lean on it: then a provider may be worth a
+///                  loss.
+decision decision_of(const problem& p, const reduced_problem& s,
+                     const Eigen::ArrayXXd& prices, int vehicle,
+                     bool supports) {
   decision result{vehicle, {option{}}};
+  const free_capacity empty{s.shares, s.providers()};
   for (int i = 0; i < s.providers(); ++i)
-    if (const auto a = s.advantage(vehicle, i); a > 0)
+    if (const auto a = s.advantage(vehicle, i); a > 0) {
       result.options.push_back({i, a, margin(s, prices, vehicle, i)});
+    } else if (supports && p.eligible(vehicle, i) && empty.fits(vehicle, i)) {
+      const auto loss = worth(p, vehicle, i) - worth(p, vehicle, local);
+      result.options.push_back({i, loss, loss + margin(s, prices, vehicle, i)});
+    }
   std::stable_sort(
       result.options.begin(), result.options.end(),
       [](const option& a, const option& b) { return a.margin > b.margin; });
   return result;
 }
 
-/// @returns all decisions, the clearest first.
-std::vector<decision> decisions_of(const reduced_problem& s,
+/// @returns all decisions, the clearest first, but none before that about whom
+/// it leans on.
+std::vector<decision> decisions_of(const problem& p, const reduced_problem& s,
                                    const Eigen::ArrayXXd& prices) {
+  const auto supports = leaned_on(p);
   std::vector<decision> result;
   for (int v = 0; v < s.vehicles(); ++v)
-    result.push_back(decision_of(s, prices, v));
+    result.push_back(decision_of(p, s, prices, v, supports[v]));
   std::stable_sort(result.begin(), result.end(),
                    [](const decision& a, const decision& b) {
                      return a.clarity() > b.clarity();
                    });
-  return result;
+  if (p.leans_on.empty())
+    return result;
+  std::vector<int> order;
+  for (const auto& d : result)
+    order.push_back(d.vehicle);
+  std::vector<decision> sorted;
+  for (const auto v : leaning_last(p, order))
+    sorted.push_back(*std::ranges::find(result, v, &decision::vehicle));
+  return sorted;
 }
 
 /// What decisions still to be made can come to, whatever they are.
@@ -98,8 +125,9 @@ std::vector<outlook> outlooks(const reduced_problem& s,
 class search {
 public:
   /// @param reached  Only what has advantages of a greater sum is looked for.
-  search(const reduced_problem& s, const Eigen::ArrayXXd& prices,
-         double reached, std::int64_t node_limit);
+  search(const problem& p, const reduced_problem& s,
+         const Eigen::ArrayXXd& prices, double reached,
+         std::int64_t node_limit);
 
   void run() { visit(0, 0); }
 
@@ -113,6 +141,7 @@ private:
   void visit(int depth, double reached);
   void keep(double reached);
 
+  const problem& whole_;
   const reduced_problem& problem_;
   const Eigen::ArrayXXd& prices_;
   std::vector<decision> decisions_;
@@ -127,10 +156,12 @@ private:
   bool gave_up_ = false;
 };
 
-search::search(const reduced_problem& s, const Eigen::ArrayXXd& prices,
-               double reached, std::int64_t node_limit)
-    : problem_{s}, prices_{prices},
-      decisions_{decisions_of(s, prices)}, outlooks_{outlooks(s, decisions_)},
+search::search(const problem& p, const reduced_problem& s,
+               const Eigen::ArrayXXd& prices, double reached,
+               std::int64_t node_limit)
+    : whole_{p}, problem_{s}, prices_{prices},
+      decisions_{decisions_of(p, s, prices)}, outlooks_{outlooks(s,
+                                                                 decisions_)},
       rooms_(s.vehicles() + 1, free_capacity{s.shares, s.providers()}),
       choices_(s.vehicles()), best_reached_{reached}, node_limit_{node_limit} {}
 
@@ -161,7 +192,8 @@ void search::visit(int depth, double reached) {
     if (o.taken)
       rooms_[depth + 1].occupy(d.vehicle, *o.taken);
     choices_[d.vehicle] = o.taken;
-    visit(depth + 1, reached + o.advantage);
+    visit(depth + 1, reached + o.advantage
+                         - loss_alone(whole_, choices_, d.vehicle, o.taken));
   }
 }
 
@@ -173,7 +205,7 @@ proved_solution branch_and_bound(const problem& p, std::int64_t node_limit) {
   auto best = greedy_regret(p);
   const auto reached = best.value - s.all_local;
   const auto priced = price_capacities(s, reached);
-  search all{s, priced.prices, reached, node_limit};
+  search all{p, s, priced.prices, reached, node_limit};
   all.run();
   if (!all.best().empty())
     best = {all.best(), value(p, all.best())};

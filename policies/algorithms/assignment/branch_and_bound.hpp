@@ -21,7 +21,8 @@ struct proved_solution {
 /// Decides about one vehicle after the other, those first whose choice is
 /// clearest, and drops a partial assignment that cannot become better than the
 /// best so far, which is greedy_regret's at first. What it can become follows
-/// from prices for what is left of the capacities (lagrangian_bound.hpp).
+/// from prices for what is left of the capacities (lagrangian_bound.hpp). Who
+/// leans on another one is decided after it; the bounds do not know of losses.
 ///
 /// Deterministic; exponential at worst, so it gives up after some nodes and
 /// returns what it has. A node costs O(M). Of problems with 40 vehicles, 3

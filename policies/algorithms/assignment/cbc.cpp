@@ -136,7 +136,7 @@ std::optional<solution> cbc(const problem& p, std::int64_t node_limit) {
   assert(node_limit >= 0);
   check(p);
   auto choices = program{p}.solve(node_limit);
-  if (!choices || !feasible(p, *choices))
+  if (!choices || !feasible(p, *choices) || !nobody_is_alone(p, *choices))
     return std::nullopt;
   const auto reached = value(p, *choices);
   return solution{std::move(*choices), reached};

@@ -14,7 +14,8 @@ namespace sofof::policies::assignment {
 /// builds with SOFOF_WITH_CBC.
 /// @param node_limit  Of its search, ≥ 0.
 /// @returns the optimum; nullopt when CBC ends without one, or with one that
-/// is not feasible() by its looser tolerances.
+/// is not feasible() by its looser tolerances, or in which somebody is alone
+/// who leans on another one.
 /// @throws std::invalid_argument as check() does.
 /// Source: Forrest & Lougee-Heimer, CBC User Guide, INFORMS Tutorials (2005).
 std::optional<solution> cbc(const problem& p,

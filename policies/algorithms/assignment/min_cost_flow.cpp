@@ -159,6 +159,8 @@ std::optional<solution> min_cost_flow(const problem& p) {
   for (int v = 0; v < s.vehicles(); ++v)
     plan.seat(v);
   const auto choices = plan.choices();
+  if (!nobody_is_alone(p, choices))
+    return std::nullopt;
   return solution{choices, value(p, choices)};
 }
 

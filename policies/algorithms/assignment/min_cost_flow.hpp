@@ -14,7 +14,8 @@ namespace sofof::policies::assignment {
 /// home (successive shortest paths, Dijkstra with potentials).
 ///
 /// O(N² M). Providers may differ in what is wanted of them.
-/// @returns the optimum; nullopt when demands at a provider are not equal.
+/// @returns the optimum; nullopt when demands at a provider are not equal, or
+/// when somebody is alone in it who leans on another one.
 /// @throws std::invalid_argument as check() does.
 /// Source: Ahuja, Magnanti & Orlin, Network Flows (1993), sections 9.7
 /// and 12.4.

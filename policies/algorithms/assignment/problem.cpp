@@ -4,6 +4,7 @@
 #include "policies/algorithms/assignment/reduced_problem.hpp"
 
 #include <cmath>
+#include <ranges>
 #include <stdexcept>
 #include <string>
 
@@ -62,6 +63,30 @@ void check_present(const problem& p) {
              + std::to_string(p.providers()) + "; give its index, or local.");
 }
 
+void check_leaning(const problem& p) {
+  if (p.leans_on.empty())
+    return;
+  if (p.leans_on.size() != static_cast<std::size_t>(p.vehicles()))
+    refuse("leans_on has " + std::to_string(p.leans_on.size())
+           + " entries; give one to each of " + std::to_string(p.vehicles())
+           + " vehicles, or none.");
+  check_size(p.lost_alone, p, "lost_alone");
+  for (int v = 0; v < p.vehicles(); ++v) {
+    auto on = p.leans_on[v];
+    for (int steps = 0; on; on = p.leans_on[*on], ++steps)
+      if (*on < 0 || *on >= p.vehicles() || steps == p.vehicles())
+        refuse("vehicle " + std::to_string(v)
+               + " leans on nobody there is, or in a circle; give the index "
+                 "of another one that does not lean on it.");
+  }
+  for (int v = 0; v < p.vehicles(); ++v)
+    for (int i = 0; i < p.providers(); ++i)
+      if (p.leans_on[v] && p.eligible(v, i) && !(p.lost_alone(v, i) >= 0))
+        refuse("the loss alone " + pair_name(v, i) + " is "
+               + std::to_string(p.lost_alone(v, i))
+               + "; give a number that is not negative.");
+}
+
 } // namespace
 
 void check(const problem& p) {
@@ -75,6 +100,7 @@ void check(const problem& p) {
   for (std::size_t k = 0; k < p.resources.size(); ++k)
     check_resource(p, k);
   check_present(p);
+  check_leaning(p);
   if (!(p.switching_price >= 0 && std::isfinite(p.switching_price)))
     refuse("the switching price is " + std::to_string(p.switching_price)
            + "; give a finite number that is not negative.");
@@ -92,7 +118,7 @@ double worth(const problem& p, int vehicle, choice c) {
 double value(const problem& p, const std::vector<choice>& choices) {
   double sum = 0;
   for (int v = 0; v < p.vehicles(); ++v)
-    sum += worth(p, v, choices[v]);
+    sum += worth(p, v, choices[v]) - loss_alone(p, choices, v, choices[v]);
   return sum;
 }
 
@@ -108,6 +134,39 @@ bool feasible(const problem& p, const std::vector<choice>& choices) {
     left.occupy(v, *c);
   }
   return true;
+}
+
+double loss_alone(const problem& p, const std::vector<choice>& choices,
+                  int vehicle, choice c) {
+  if (p.leans_on.empty() || !c)
+    return 0;
+  const auto on = p.leans_on[vehicle];
+  return on && choices[*on] != c ? p.lost_alone(vehicle, *c) : 0;
+}
+
+bool nobody_is_alone(const problem& p, const std::vector<choice>& choices) {
+  for (int v = 0; v < p.vehicles(); ++v)
+    if (loss_alone(p, choices, v, choices[v]) > 0)
+      return false;
+  return true;
+}
+
+std::vector<int> leaning_last(const problem& p, const std::vector<int>& order) {
+  if (p.leans_on.empty())
+    return order;
+  std::vector<int> result;
+  std::vector<bool> is_placed(order.size());
+  for (const auto v : order) {
+    std::vector<int> way;
+    for (std::optional<int> next = v; next && !is_placed[*next];
+         next = p.leans_on[*next])
+      way.push_back(*next);
+    for (const auto link : std::views::reverse(way)) {
+      is_placed[link] = true;
+      result.push_back(link);
+    }
+  }
+  return result;
 }
 
 } // namespace sofof::policies::assignment

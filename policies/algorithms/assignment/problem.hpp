@@ -34,6 +34,9 @@ struct resource {
 ///        Σ_j u_ij x_ij ≤ U_i for each provider i and each resource,
 ///        x_ij = 0 where i may not serve j,  x_ij in {0, 1}
 ///
+/// Links of the chain of one vehicle are "vehicles" of their own here. If j
+/// leans on k, g_ij is the gain where i serves k too, and else less by l_ij.
+///
 /// Numbers of a pair that is not eligible are never read.
 struct problem {
   /// g_ij: what is gained by x_ij = 1 over local computing; may be negative.
@@ -45,6 +48,10 @@ struct problem {
   /// μ ≥ 0, in units of the gains; to be paid for each x_ij that changes, thus
   /// twice by a vehicle that goes from one provider to another.
   double switching_price = 0;
+  /// k: on whom each vehicle leans, without circles; empty: nobody leans on
+  /// anybody, and l is not read.
+  std::vector<std::optional<int>> leans_on{};
+  pair_table lost_alone{}; ///< l_ij ≥ 0.
 
   int vehicles() const { return static_cast<int>(gains.rows()); }
   int providers() const { return static_cast<int>(gains.cols()); }
@@ -61,7 +68,8 @@ struct solution {
 /// range; the sentence names it.
 void check(const problem& p);
 
-/// @returns what a choice adds to the objective, its switching price paid.
+/// @returns what a choice adds to the objective, its switching price paid, with
+/// whom it leans on beside it.
 double worth(const problem& p, int vehicle, choice c);
 
 /// @returns the objective of choices, one per vehicle.
@@ -70,5 +78,16 @@ double value(const problem& p, const std::vector<choice>& choices);
 /// @returns whether choices respect eligibility and capacities. A sum of
 /// demands may exceed a capacity by 1e-9 of it: sums of decimals are not exact.
 bool feasible(const problem& p, const std::vector<choice>& choices);
+
+/// @returns what is lost of a vehicle's gain by this choice as the one that it
+/// leans on is not there, if others make theirs.
+double loss_alone(const problem& p, const std::vector<choice>& choices,
+                  int vehicle, choice c);
+
+/// @returns whether nobody loses anything so.
+bool nobody_is_alone(const problem& p, const std::vector<choice>& choices);
+
+/// @returns the vehicles in the same order, but each after whom it leans on.
+std::vector<int> leaning_last(const problem& p, const std::vector<int>& order);
 
 } // namespace sofof::policies::assignment

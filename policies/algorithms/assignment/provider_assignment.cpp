@@ -2,6 +2,7 @@
 #include "policies/algorithms/assignment/provider_assignment.hpp"
 
 #include "policies/algorithms/assignment/queueing.hpp"
+#include "policies/algorithms/chains/leaning.hpp"
 
 #include <algorithm>
 
@@ -27,6 +28,22 @@ double room_here(const central_context& context, duration wait) {
   }
   // Utilisation is a share of all workers: together they count as one.
   return std::max(in_use, utilisation_cap(1, from_seconds(longest_s), wait));
+}
+
+/// Says who leans on whom. Alone, one counts here as if its vehicle told
+/// nothing, and elsewhere for nothing.
+void lean(problem& p, const central_context& context, double price) {
+  const auto leaning = leaning_of(context);
+  const auto leans = [](const auto& on) { return on.has_value(); };
+  if (std::ranges::none_of(leaning, leans))
+    return;
+  for (const auto& on : leaning)
+    p.leans_on.push_back(on ? std::optional{static_cast<int>(*on)}
+                            : std::nullopt);
+  p.lost_alone = p.gains.max(0);
+  for (int v = 0; v < p.vehicles(); ++v)
+    p.lost_alone(v, here) -= local_gain(
+        {}, context.self, p.resources.front().demand(v, here), price);
 }
 
 } // namespace
@@ -75,6 +92,7 @@ central_problem problem_of(const central_context& context,
     fill(vehicle, session);
     p.present[vehicle++] = here;
   }
+  lean(p, context, options.price);
   return all;
 }
 

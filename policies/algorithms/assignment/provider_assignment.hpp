@@ -32,7 +32,10 @@ struct central_problem {
 /// This provider may be busy up to `utilisation_cap` of the longest computing
 /// time, which bounds the mean wait of a mixture too; what runs has room in any
 /// case. Others have what is left by what they said, and a service is taken to
-/// need as much of them as of this one.
+/// need as much of them as of this one. Links of a vehicle's chain lean on each
+/// other as `leaning_of` (policies/algorithms/chains/leaning.hpp) says; one
+/// that is alone counts here as if its vehicle told nothing, and elsewhere for
+/// nothing.
 central_problem problem_of(const central_context& context,
                            const assignment_options& options);
 

@@ -3,6 +3,8 @@
 
 #include "policies/algorithms/assignment/reduced_problem.hpp"
 
+#include <numeric>
+
 namespace sofof::policies::assignment {
 
 namespace {
@@ -26,10 +28,14 @@ solution sampled(const problem& p, const cross_entropy_options& options,
   std::vector<int> counts;
   for (const auto& m : meaning)
     counts.push_back(static_cast<int>(m.size()));
+  std::vector<int> order(s.vehicles());
+  std::iota(order.begin(), order.end(), 0);
+  order = leaning_last(p, order);
+  std::vector<choice> choices(s.vehicles());
   const auto admit = [&](std::span<int> sample) {
     free_capacity left{s.shares, s.providers()};
     double reached = 0;
-    for (int v = 0; v < s.vehicles(); ++v) {
+    for (const auto v : order) {
       auto c = meaning[v][sample[v]];
       if (c && !left.fits(v, *c)) {
         sample[v] = 0;
@@ -37,7 +43,8 @@ solution sampled(const problem& p, const cross_entropy_options& options,
       }
       if (c)
         left.occupy(v, *c);
-      reached += s.advantage_of(v, c);
+      choices[v] = c;
+      reached += s.advantage_of(v, c) - loss_alone(p, choices, v, c);
     }
     return reached;
   };
