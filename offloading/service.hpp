@@ -147,6 +147,10 @@ public:
   /// they are used as they are.
   virtual std::unique_ptr<result_judge> make_judge() const;
 
+  /// @returns whether the service looks at scenes, or one of its chain does in
+  /// its place; by default it does not.
+  virtual bool looks_at_scenes() const { return false; }
+
   /// @param latest  The vehicle's newest input, of no session.
   /// @returns the longest response time under which the vehicle's scene is
   /// safe; nullopt if the service does not know, by default.

@@ -54,10 +54,13 @@ duration worst_response_of(std::span<const service_state* const> chain,
 std::optional<duration>
 safe_response_of(std::span<const service_state* const> chain, time_point now) {
   std::optional<duration> least;
-  for (const auto* x : chain)
+  auto looks = false;
+  for (const auto* x : chain) {
     if (const auto found = x->safe_response(now))
       least = least ? std::min(*least, *found) : found;
-  return least;
+    looks = looks || x->service.own->looks_at_scenes();
+  }
+  return least || !looks ? least : duration{0};
 }
 
 } // namespace sofof::offloading

@@ -25,7 +25,8 @@ duration worst_response_of(std::span<const service_state* const> chain,
                            const service_state& one);
 
 /// @returns the longest response time under which the scene is safe, as the
-/// services of the chain have found it: the least; nullopt: none has looked.
+/// services of the chain have found it: the least; none, 0, before one of them
+/// has looked; nullopt: none does.
 std::optional<duration>
 safe_response_of(std::span<const service_state* const> chain, time_point now);
 

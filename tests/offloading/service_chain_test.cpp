@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -50,6 +51,13 @@ struct three_and_one {
     const auto& one = named(away);
     return worst_response_of(chain_of(all, one), one);
   }
+};
+
+struct looks final : vehicle_service {
+  std::shared_ptr<service_function> make_function() const override {
+    return nullptr;
+  }
+  bool looks_at_scenes() const override { return true; }
 };
 
 } // namespace
@@ -104,4 +112,14 @@ TEST_CASE_FIXTURE(three_and_one, "the scene is as safe as the service says "
   CHECK(safe(1s) == 600ms);
   named("first").scene = {at(2s), 500ms};
   CHECK(safe(2s) == 0ms); // the last one has not looked for a while
+}
+
+TEST_CASE_FIXTURE(three_and_one, "before the service that looks at the scene "
+                                 "has looked, no response time is safe") {
+  named("first").service.own = std::make_shared<looks>();
+  const auto chain = chain_of(all, named("last"));
+  CHECK(safe_response_of(chain, at(0s)) == 0ms);
+  named("first").scene = {at(0s), 700ms};
+  CHECK(safe_response_of(chain, at(0s)) == 700ms);
+  CHECK_FALSE(safe_response_of(chain_of(all, named("alone")), at(0s)));
 }

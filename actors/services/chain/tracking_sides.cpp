@@ -86,6 +86,8 @@ public:
     return make_track_reader(world_, houses_);
   }
 
+  bool looks_at_scenes() const override { return true; }
+
   /// For the whole chain: nobody knows sooner what was seen.
   std::optional<offloading::safe_response>
   look_at_scene(const messages::service_input& latest) const override {

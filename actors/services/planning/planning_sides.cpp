@@ -100,6 +100,8 @@ public:
     return policies::continues(here, there, step);
   }
 
+  bool looks_at_scenes() const override { return true; }
+
   /// In a chain its first service looks.
   std::optional<offloading::safe_response>
   look_at_scene(const messages::service_input& latest) const override {
