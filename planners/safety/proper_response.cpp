@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
 #include <utility>
 
 namespace sofof::planners {
@@ -40,13 +41,16 @@ void respond_properly(world::trajectory& plan, double decel_mps2) {
   const auto step_s = planned[1].t_s;
   auto s_m = planned.front().s_m, v = planned.front().speed_mps;
   auto passed_s = 0.0; // when the plan is where the point before is
-  for (const auto& then : planned) {
+  for (std::size_t k = 0; k < planned.size(); ++k) {
+    const auto& then = planned[k];
+    const auto& next = planned[std::min(k + 1, planned.size() - 1)];
     auto point = passing(along, s_m, passed_s, then.t_s);
     passed_s = point.t_s;
     point.t_s = then.t_s;
     point.s_m = s_m;
     point.speed_mps = v;
-    point.accel_mps2 = v > 0 ? std::min(-decel_mps2, then.accel_mps2) : 0;
+    point.accel_mps2 =
+        v > 0 ? std::min({-decel_mps2, then.accel_mps2, next.accel_mps2}) : 0;
     plan.points.push_back(point);
     const auto slower = std::max(0.0, v + point.accel_mps2 * step_s);
     s_m += slower > 0 ? step_s * (v + slower) / 2

@@ -34,7 +34,7 @@ TEST_CASE(
     "the plan leads, until it stands") {
   constexpr auto decel_mps2 = 4.0;
   for (const auto speed_mps : {0.5, 3.0, 9.0, 16.0})
-    for (const auto accel_mps2 : {-1.0, 0.0, 1.5}) {
+    for (const auto accel_mps2 : {-4.0, -1.0, 0.0, 1.5}) {
       CAPTURE(speed_mps);
       const auto before = braking_softly(speed_mps, 1.5, accel_mps2);
       auto plan = before;
@@ -67,6 +67,23 @@ TEST_CASE("who responds properly brakes harder where the plan does") {
     CHECK((p.speed_mps == 0 || p.accel_mps2 <= before.points[k].accel_mps2));
   }
   CHECK(plan.at(1.5).accel_mps2 == Approx(-7).epsilon(0.001));
+}
+
+TEST_CASE("who responds properly is never ahead of its plan, however that "
+          "changes its braking") {
+  for (const auto accel_mps2 : {-7.0, -4.0, -2.0, 0.0, 1.5})
+    for (const auto target_mps2 : {1.0, 4.0, 7.0})
+      for (const auto decel_mps2 : {2.0, 4.0, 8.0}) {
+        CAPTURE(accel_mps2);
+        CAPTURE(target_mps2);
+        CAPTURE(decel_mps2);
+        const auto before = braking_softly(15, target_mps2, accel_mps2);
+        auto plan = before;
+        respond_properly(plan, decel_mps2);
+        CHECK(plan.is_sound());
+        for (std::size_t k = 0; k < plan.points.size(); ++k)
+          CHECK(plan.points[k].s_m <= before.points[k].s_m + 1e-3);
+      }
 }
 
 TEST_CASE("who stands and responds properly goes on standing") {
