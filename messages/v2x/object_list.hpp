@@ -20,7 +20,8 @@ struct object_list {
   station_id from = 0;
   time_point at;
   std::vector<world::perceived_object> objects;
-  /// Of each object: its number, the same as long as the station knows it.
+  /// Of each object: its number, the same as long as the station knows it; none
+  /// where they have no such numbers, and all that is seen is told.
   std::vector<std::uint32_t> ids{};
   std::size_t perceived = 0; ///< All objects, those that it does not tell too.
   time_point generated{};    ///< When the station was where it says it is.

@@ -25,8 +25,7 @@ public:
     auto look = message ? read_objects(*message, *world_, now) : std::nullopt;
     if (!look || look->from != vehicle_)
       return {};
-    for (auto& id : look->ids)
-      id = next_id_++; // those of a look mean nothing in the next one
+    look->ids.clear(); // they mean nothing in the next look, nor in CPMs
     perceived_->on_objects(
         *look, message->sender.value_or(sender_id{vehicle_.value()}));
     if (!has_begun_ && !perceived_->knows_surroundings_of(vehicle_))
@@ -58,7 +57,6 @@ private:
   offloading::provider_context provider_;
   station_id vehicle_;
   std::shared_ptr<edge_perception> perceived_;
-  std::uint32_t next_id_ = 0;           // of an object of a look
   bool has_begun_ = false;              // to tell tracks
   std::vector<planners::track> tracks_; // room that is used again
 };

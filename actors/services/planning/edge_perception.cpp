@@ -120,9 +120,10 @@ std::vector<planners::station_doubt> edge_perception::take_doubts() {
 /// long it is and how fast, its CAMs do.
 planners::road_look
 edge_perception::look_of(const messages::object_list& told) const {
-  planners::road_look look{told.generated, *told.eye,    0,
-                           told.at,        told.objects, told.ids,
-                           told.perceived};
+  planners::road_look look{
+      told.generated, *told.eye, 0, told.at, told.objects, {}, told.perceived};
+  if (told.ids.size() == told.objects.size())
+    look.ids = told.ids;
   const auto own = told_.find(told.from);
   const auto self = own == told_.end() ? messages::cam{} : own->second.newest;
   look.speed_mps = self.speed_mps;
