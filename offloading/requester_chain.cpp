@@ -62,6 +62,8 @@ std::vector<policies::chain_link> requester::chain_view(time_point now) {
                      .providers = service->views(providers_, std::nullopt, now),
                      .needs = service->needs,
                      .on_board = service->on_board,
+                     .resting_j = setup_.computer.resting_share
+                                  * service->on_board.energy_j,
                      .times = times_of(*service)});
   }
   assert(chain.size() == chain_.size());

@@ -80,6 +80,7 @@ struct chain_link {
   std::vector<provider_view> providers;
   service_needs needs{};
   world::cycle_cost on_board{}; ///< Of a cycle in the vehicle.
+  double resting_j = 0;         ///< Of a cycle that another one computes, J.
   service_times times{};        ///< As measured so far.
 };
 

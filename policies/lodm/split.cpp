@@ -26,24 +26,25 @@ constexpr std::array measures{of_energy, of_response};
 constexpr auto never = std::numeric_limits<double>::infinity();
 constexpr double of_most = 0.99; // of responses count
 
-/// @returns how many results a second a service gives: one that is called by
-/// inputs, one for each look.
-double results_per_s(const chain_link& link) {
-  const auto period = link.times.period > duration{0} ? link.times.period
-                                                      : protocol::sensor_period;
-  return 1 / to_seconds(period);
+/// @returns the time between two results of a service in the vehicle: one that
+/// is called by inputs gives one for each look.
+double period_s(const chain_link& link) {
+  return to_seconds(link.times.period > duration{0} ? link.times.period
+                                                    : protocol::sensor_period);
 }
 
 /// @returns what the vehicle spends on a service there, W; infinite if it
 /// cannot run there.
 double power_w(const chain_link& link, const service_place& place) {
   if (!place)
-    return results_per_s(link) * link.on_board.energy_j;
+    return link.on_board.energy_j / period_s(link);
   const auto there =
       std::ranges::find(link.providers, *place, &provider_view::id);
-  return there == link.providers.end()
-             ? never
-             : results_per_s(link) * there->cost.energy_j;
+  if (there == link.providers.end())
+    return never;
+  const auto sends_every_s =
+      std::max(period_s(link), to_seconds(link.times.input_period));
+  return link.resting_j / period_s(link) + there->cost.energy_j / sends_every_s;
 }
 
 /// @returns what the vehicle spends on the whole chain, W.
@@ -94,8 +95,8 @@ private:
   chain_split choose(std::span<const chain_link> chain) const;
   chain_split fixed(std::span<const chain_link> chain) const;
   double cost(std::span<const chain_link> chain,
-              std::span<const service_times> times,
-              const chain_split& split) const;
+              std::span<const service_times> times, const chain_split& split,
+              double least) const;
 
   std::string search_{by_exact};
   std::string measure_{of_energy};
@@ -144,29 +145,39 @@ chain_split split_policy::choose(std::span<const chain_link> chain) const {
   std::vector<service_times> times;
   for (const auto& link : chain)
     times.push_back(link.times);
+  auto least = never;
   const auto cost_of = [&](const chain_split& split) {
-    return cost(chain, times, split);
+    const auto found = cost(chain, times, split, least);
+    least = std::min(least, found);
+    return found;
   };
   const auto now = places_of(chain);
   const auto places = choices_of(chain);
-  const auto best = search_ == by_exact && chain.size() <= longest_exact
+  const auto best = search_ == by_exact && is_few(places)
                         ? best_split(places, cost_of)
                         : greedy_split(places, now, cost_of);
-  return cost_of(best) < (1 - margin_) * cost_of(now) ? best : now;
+  return cost(chain, times, best, never)
+                 < (1 - margin_) * cost(chain, times, now, never)
+             ? best
+             : now;
 }
 
 /// A split that takes too long costs more than any that does not, but the one
 /// at home is there always.
+/// @param least  Of a split that takes no less energy than this, how late its
+///               responses are is not worked out: it costs more than any.
 double split_policy::cost(std::span<const chain_link> chain,
                           std::span<const service_times> times,
-                          const chain_split& split) const {
+                          const chain_split& split, double least) const {
   const auto spent_w = power_w(chain, split);
   const auto is_home = std::ranges::none_of(
       split, [](const auto& place) { return place.has_value(); });
   if (measure_ == of_energy && is_home)
     return spent_w;
+  if (spent_w == never || (measure_ == of_energy && spent_w >= least))
+    return never;
   const auto late = predicted_response(times, split).quantile(of_most);
-  if (!late || spent_w == never)
+  if (!late)
     return never;
   if (measure_ == of_response)
     return to_seconds(*late);

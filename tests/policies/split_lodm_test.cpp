@@ -104,6 +104,31 @@ TEST_CASE_FIXTURE(chain_of_three,
 }
 
 TEST_CASE_FIXTURE(chain_of_three,
+                  "a function that rests counts, and inputs that go up seldom "
+                  "count as often as they do") {
+  const auto with = [&](double resting_j, duration input_period) {
+    auto x = *this;
+    for (auto& link : x.chain) {
+      link.resting_j = resting_j;
+      link.times.input_period = input_period;
+    }
+    return x.settle(*split_by({{"measure", "energy"}}));
+  };
+  CHECK(with(0, {}) == chain_split{1, 1, 1});
+  CHECK(with(0.6 * saved, {}) == chain_split{{}, {}, {}});
+  CHECK(with(0.6 * saved, 100ms) == chain_split{1, 1, 1});
+}
+
+TEST_CASE("of very many splits not all are looked at") {
+  std::vector<std::vector<service_place>> places(3, {{}, 1, 2, 3, 4});
+  CHECK(is_few(places));
+  places[0].emplace_back(5);
+  CHECK_FALSE(is_few(places));
+  places.resize(70, std::vector<service_place>(2));
+  CHECK_FALSE(is_few(places));
+}
+
+TEST_CASE_FIXTURE(chain_of_three,
                   "the least response time is at home where the "
                   "way is long") {
   const auto lodm = split_by({{"measure", "response"}});

@@ -6,9 +6,17 @@
 
 namespace sofof::policies {
 
+bool is_few(std::span<const std::vector<service_place>> places) {
+  std::size_t splits = 1;
+  for (const auto& of_one : places)
+    if (splits *= of_one.size(); splits > most_looked_at)
+      return false;
+  assert(splits > 0);
+  return true;
+}
+
 chain_split best_split(std::span<const std::vector<service_place>> places,
                        const split_cost& cost) {
-  assert(places.size() <= longest_exact);
   assert(std::ranges::none_of(places, &std::vector<service_place>::empty));
   std::vector<std::size_t> digits(places.size());
   chain_split split(places.size()), best;

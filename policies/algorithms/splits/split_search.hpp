@@ -9,8 +9,12 @@
 
 namespace sofof::policies {
 
-/// Chains up to this length are searched exactly.
-inline constexpr std::size_t longest_exact = 4;
+/// So many splits can be looked at for one decision: of four services over two
+/// providers, or of three over four.
+inline constexpr std::size_t most_looked_at = 128;
+
+/// @returns whether there are no more splits than that.
+bool is_few(std::span<const std::vector<service_place>> places);
 
 /// What a split is worth: the less, the better; infinite if it cannot be.
 using split_cost = std::function<double(const chain_split&)>;
@@ -18,7 +22,6 @@ using split_cost = std::function<double(const chain_split&)>;
 /// @param places  Where each service may run, at least one place each.
 /// @returns the split of the least cost of all; of equal ones the first, by the
 /// order of places. O(Π places).
-/// Precondition: no more than `longest_exact` services.
 chain_split best_split(std::span<const std::vector<service_place>> places,
                        const split_cost& cost);
 
