@@ -47,8 +47,12 @@ response_ledger::response_ledger(const std::vector<std::string>& chain) {
 }
 
 void response_ledger::add(const messages::look_record& x) {
-  if (!chain_.empty())
-    cars_[x.station].looks.push_back(x);
+  if (chain_.empty())
+    return;
+  auto& looks = cars_[x.station].looks;
+  looks.push_back(x);
+  while (looks.front().sensed_at < x.sensed_at - kept_for)
+    looks.pop_front(); // no plan has come of it for so long
 }
 
 void response_ledger::add(const messages::stage_record& x,

@@ -35,7 +35,6 @@ private:
     std::deque<messages::look_record> looks;
     std::vector<std::deque<messages::stage_record>> results; // by service
     std::optional<time_point> answered; // the newest look that was
-    std::size_t followed = 0;           // of the last service's results
   };
   /// One of those results by which a plan depends on a look.
   struct step {
