@@ -73,14 +73,13 @@ void check_chain(const finished_run& run, broken_promises& to) {
       continue;
     const auto t_s = rows.number(0);
     const auto station = rows.whole(3);
-    last_s[station] = t_s;
+    if (last_s.insert_or_assign(station, t_s).second)
+      for (const auto& [service, longest] : longest_s) // one may never give any
+        all.try_emplace({station, service}, used_results{t_s});
     auto service = rows.text(4).substr(0, rows.text(4).find('#'));
     if (rows.text(2) != "used" || !longest_s.contains(service))
       continue;
-    const auto [known, is_first] =
-        all.try_emplace({station, std::move(service)}, used_results{t_s});
-    if (!is_first)
-      known->second.add(t_s);
+    all.at({station, std::move(service)}).add(t_s);
   }
   for (auto& [of, used] : all) {
     used.add(last_s.at(of.first));
