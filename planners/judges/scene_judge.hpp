@@ -5,6 +5,7 @@
 #include "base/objection.hpp"
 #include "planners/judges/lasting_doubt.hpp"
 #include "planners/plausibility/witness.hpp"
+#include "planners/scene/corridor.hpp"
 #include "planners/scene/driving_scene.hpp"
 #include "planners/scene/line_of_sight.hpp"
 #include "planners/scene/object_tracker.hpp"
@@ -58,6 +59,10 @@ struct scene_limits {
   double map_from_m = 3.0;  ///< Ahead of the front bumper, looked at from
   double map_to_m = 120;    ///< and to there.
 
+  double corridor_m = corridor::room_beside_m / 2; ///< Beside the line.
+  double looked_for_m = 20;       ///< Bodies, from where they are told to be.
+  double lead_speeds_up_mps2 = 3; ///< That drives as it tells.
+
   double most_speed_mps = 60;
   double most_accel_mps2 = 14;
 
@@ -102,6 +107,11 @@ public:
 
 private:
   static constexpr scene_limits limits{};
+
+  static bool meet(double a_from_m, double a_to_m, double b_from_m,
+                   double b_to_m, double slack_m) {
+    return a_from_m <= b_to_m + slack_m && b_from_m <= a_to_m + slack_m;
+  }
 
   double front_m(const own_knowledge& x) const { return x.s_m + car_.front_m; }
   double matters_to_m(const own_knowledge& x) const;
