@@ -118,6 +118,8 @@ private:
   static std::string_view find_impossible(const driving_scene& told);
   std::string_view hold_to_map(const own_knowledge& x,
                                driving_scene& told) const;
+  bool leads_before(const own_knowledge& x, double at_m, double speed_mps,
+                    const driving_scene& told) const;
   bool is_covered(const own_knowledge& x, const lead_vehicle& lead,
                   const driving_scene& told) const;
   bool is_passed(const own_knowledge& x, double at_m,

@@ -38,15 +38,21 @@ bool scene_judge::is_passed(const own_knowledge& x, double at_m,
   return any;
 }
 
+/// @returns whether a told lead, no faster than so, is met before a place. One
+/// behind the own front leads nobody.
+bool scene_judge::leads_before(const own_knowledge& x, double at_m,
+                               double speed_mps,
+                               const driving_scene& told) const {
+  assert(std::isfinite(at_m));
+  return told.lead && told.lead->rear_s_m > front_m(x)
+         && told.lead->rear_s_m <= at_m
+         && told.lead->speed_mps <= speed_mps + limits.faster_mps;
+}
+
+/// @returns whether something else that is told is where a lead is known.
 bool scene_judge::is_covered(const own_knowledge& x, const lead_vehicle& lead,
                              const driving_scene& told) const {
-  assert(std::isfinite(lead.rear_s_m));
   const auto off_m = limits.along_m + limits.for_speed_s * lead.speed_mps;
-  if (told.lead && told.lead->rear_s_m <= lead.rear_s_m + off_m) {
-    const auto is_same = told.lead->rear_s_m > lead.rear_s_m - off_m;
-    return !is_same
-           || told.lead->speed_mps <= lead.speed_mps + limits.faster_mps;
-  }
   const auto crosses_there =
       std::ranges::any_of(told.crossings, [&](const crossing_user& c) {
         return c.enter_s < limits.here_s
@@ -56,18 +62,11 @@ bool scene_judge::is_covered(const own_knowledge& x, const lead_vehicle& lead,
   return crosses_there || is_passed(x, lead.rear_s_m, told);
 }
 
+/// A lead that is told before the known one is driven at in its stead, so it
+/// may not be faster.
 std::string_view scene_judge::hold_to_lead(const own_knowledge& x,
                                            driving_scene& told) const {
   std::string_view check;
-  const auto& lead = x.scene.lead;
-  if (lead && lead->rear_s_m < matters_to_m(x) && !is_covered(x, *lead, told)) {
-    told.lead = lead;
-    told.lead_told.clear();
-    std::erase_if(told.beside, [&](const lane_obstacle& o) {
-      return o.from_m > lead->rear_s_m;
-    });
-    check = "lead";
-  }
   // It tells to be ahead of what it can be.
   if (told.lead
       && std::ranges::any_of(told.lead_told, [&](const way_moment& m) {
@@ -79,9 +78,29 @@ std::string_view scene_judge::hold_to_lead(const own_knowledge& x,
     told.lead_told.clear();
     check = "lead";
   }
-  assert(check.empty() || told.lead);
-  assert(check.empty() || told.lead_told.empty());
-  return check;
+  const auto& own = x.scene.lead;
+  if (!own || own->rear_s_m >= matters_to_m(x))
+    return check;
+  const auto off_m = limits.along_m + limits.for_speed_s * own->speed_mps;
+  const auto from_m = std::min(front_m(x), own->rear_s_m - off_m);
+  if (told.lead && told.lead->rear_s_m > from_m
+      && told.lead->rear_s_m <= own->rear_s_m + off_m) {
+    if (told.lead->speed_mps > own->speed_mps + limits.faster_mps)
+      check = "lead";
+    if (told.lead->speed_mps > own->speed_mps) {
+      told.lead->speed_mps = own->speed_mps;
+      told.lead->accel_mps2 = std::min(told.lead->accel_mps2, own->accel_mps2);
+    }
+    return check;
+  }
+  if (is_covered(x, *own, told))
+    return check;
+  told.lead = own;
+  told.lead_told.clear();
+  std::erase_if(told.beside, [&](const lane_obstacle& o) {
+    return o.from_m > own->rear_s_m;
+  });
+  return "lead";
 }
 
 std::string_view scene_judge::hold_to_beside(const own_knowledge& x,
@@ -98,7 +117,7 @@ std::string_view scene_judge::hold_to_beside(const own_knowledge& x,
     assert(off_m >= limits.along_m);
     if (own.from_m > matters_to_m(x) || own.to_m < front_m(x)
         || own.low_m > nearest_m || own.high_m < -nearest_m
-        || (told.lead && told.lead->rear_s_m <= own.from_m + off_m))
+        || leads_before(x, own.from_m + off_m, std::abs(own.speed_mps), told))
       continue;
     const auto same = std::ranges::find_if(told.beside, [&](const auto& o) {
       return meet(o.from_m, o.to_m, own.from_m, own.to_m, off_m)

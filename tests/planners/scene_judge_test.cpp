@@ -124,6 +124,43 @@ TEST_CASE("a lead that is known and not told, or told farther or faster, is "
   CHECK(end->second < 1.3);
 }
 
+TEST_CASE("who is told to lead before the lead that is known drives no faster, "
+          "and does not lead from behind") {
+  told_drive_of_scenes x;
+  x.know(seen_track({230, 0}));
+  x.own.lead = x.lead(227.5);
+  driving_scene lie;
+  SUBCASE("nearer and faster") {
+    lie.lead = x.lead(222.5, 50);
+    CHECK_FALSE(x.step(lie).refused);
+    CHECK(x.told.lead->rear_s_m == 222.5);
+  }
+  SUBCASE("behind the own car") {
+    lie.lead = x.lead(100);
+    CHECK_FALSE(x.step(lie).refused);
+    CHECK(x.told.lead->rear_s_m == 227.5);
+  }
+  CHECK(x.told.lead->speed_mps == 0);
+  const auto end = x.go_on(3, lie);
+  REQUIRE(end);
+  CHECK(end->first == "lead");
+}
+
+TEST_CASE("who is told to lead before a body beside the way, faster or from "
+          "behind, hides it from nobody") {
+  told_drive_of_scenes x;
+  x.own.beside = {{227.5, 232.5, -2.6, -0.6, 0, 0, 0}};
+  driving_scene lie;
+  SUBCASE("faster") {
+    lie.lead = x.lead(224.5, 50);
+  }
+  SUBCASE("from behind") {
+    lie.lead = x.lead(100);
+  }
+  CHECK_FALSE(x.step(lie).refused);
+  CHECK(x.told.beside.size() == 1);
+}
+
 TEST_CASE("who leaves hardly room enough may be told to be passed, where it "
           "is") {
   told_drive_of_scenes x;
