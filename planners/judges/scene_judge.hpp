@@ -120,8 +120,9 @@ private:
                                driving_scene& told) const;
   bool leads_before(const own_knowledge& x, double at_m, double speed_mps,
                     const driving_scene& told) const;
-  bool is_covered(const own_knowledge& x, const lead_vehicle& lead,
-                  const driving_scene& told) const;
+  double gone_s(const own_knowledge& x, double at_m, double to_m) const;
+  bool crosses_as(const own_knowledge& x, const way_stretch& place,
+                  double off_m, const driving_scene& told) const;
   bool is_passed(const own_knowledge& x, double at_m,
                  const driving_scene& told) const;
   std::string_view hold_to_lead(const own_knowledge& x,

@@ -7,9 +7,17 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <numbers>
 #include <string_view>
 
 namespace sofof::planners {
+
+namespace {
+
+constexpr auto forever = std::numeric_limits<double>::infinity();
+
+} // namespace
 
 /// @returns whether the bodies that stand where a lead is known are told to be
 /// beside the way, as they are: who leaves hardly room enough is one or the
@@ -29,6 +37,7 @@ bool scene_judge::is_passed(const own_knowledge& x, double at_m,
     any = true;
     if (std::ranges::none_of(told.beside, [&](const lane_obstacle& o) {
           return o.left_m <= 0 && o.lacks_m < limits.most_lacking_m
+                 && std::abs(o.speed_mps - foot->speed_mps) < limits.faster_mps
                  && meet(o.from_m, o.to_m, foot->from_m, foot->to_m, 0)
                  && o.low_m <= foot->low_m + limits.beside_m + uncertain_m_
                  && o.high_m >= foot->high_m - limits.beside_m - uncertain_m_;
@@ -49,17 +58,44 @@ bool scene_judge::leads_before(const own_knowledge& x, double at_m,
          && told.lead->speed_mps <= speed_mps + limits.faster_mps;
 }
 
-/// @returns whether something else that is told is where a lead is known.
-bool scene_judge::is_covered(const own_knowledge& x, const lead_vehicle& lead,
-                             const driving_scene& told) const {
-  const auto off_m = limits.along_m + limits.for_speed_s * lead.speed_mps;
-  const auto crosses_there =
-      std::ranges::any_of(told.crossings, [&](const crossing_user& c) {
-        return c.enter_s < limits.here_s
-               && meet(c.from_m, c.to_m, lead.rear_s_m,
-                       lead.rear_s_m + limits.looked_for_m / 2, off_m);
-      });
-  return crosses_there || is_passed(x, lead.rear_s_m, told);
+/// @returns when the known bodies that begin about a place have left the way,
+/// at the soonest, or what is behind `to_m`, s; infinite: one of them stands.
+double scene_judge::gone_s(const own_knowledge& x, double at_m,
+                           double to_m) const {
+  auto last_s = 0.0;
+  assert(std::isfinite(at_m) && std::isfinite(to_m));
+  for (const auto& t : x.tracks) {
+    const auto now = predict(t, x.scene.at);
+    const auto foot = measure_body(
+        x.way, now, {at_m, limits.looked_for_m, limits.corridor_m});
+    if (!foot || foot->from_m < at_m - limits.along_m
+        || foot->from_m > at_m + limits.pulls_out_m)
+      continue;
+    if (now.stands())
+      return forever;
+    const auto way_rad = x.way.path().at(foot->from_m).heading_rad;
+    const auto left_mps = now.speed_along_mps(way_rad + std::numbers::pi / 2);
+    const auto aside_m = left_mps > 0 ? limits.corridor_m - foot->low_m
+                                      : limits.corridor_m + foot->high_m;
+    const auto aside_s = aside_m / std::abs(left_mps);
+    const auto along_s =
+        foot->speed_mps > 0 ? (to_m - foot->from_m) / foot->speed_mps : forever;
+    last_s = std::max(last_s, std::min(aside_s, along_s));
+  }
+  assert(last_s >= 0);
+  return last_s;
+}
+
+/// @returns whether somebody who is told to cross first stands for the known
+/// bodies of a place: is there, and for as long as they are.
+bool scene_judge::crosses_as(const own_knowledge& x, const way_stretch& place,
+                             double off_m, const driving_scene& told) const {
+  assert(place.from_m <= place.to_m);
+  return std::ranges::any_of(told.crossings, [&](const crossing_user& c) {
+    return c.goes_first && c.enter_s < limits.here_s && c.leave_s > 0
+           && meet(c.from_m, c.to_m, place.from_m, place.to_m, off_m)
+           && c.leave_s >= gone_s(x, place.from_m, c.to_m) - limits.crossing_s;
+  });
 }
 
 /// A lead that is told before the known one is driven at in its stead, so it
@@ -93,7 +129,9 @@ std::string_view scene_judge::hold_to_lead(const own_knowledge& x,
     }
     return check;
   }
-  if (is_covered(x, *own, told))
+  const way_stretch place{own->rear_s_m,
+                          own->rear_s_m + limits.looked_for_m / 2};
+  if (crosses_as(x, place, off_m, told) || is_passed(x, own->rear_s_m, told))
     return check;
   told.lead = own;
   told.lead_told.clear();
@@ -124,12 +162,7 @@ std::string_view scene_judge::hold_to_beside(const own_knowledge& x,
              && meet(o.low_m, o.high_m, own.low_m, own.high_m,
                      limits.beside_m + uncertain_m_);
     });
-    const auto crosses_there =
-        std::ranges::any_of(told.crossings, [&](const crossing_user& c) {
-          return c.enter_s < limits.here_s
-                 && meet(c.from_m, c.to_m, own.from_m, own.to_m, off_m);
-        });
-    if (crosses_there)
+    if (crosses_as(x, {own.from_m, own.to_m}, off_m, told))
       continue;
     if (same == told.beside.end()) {
       // Who hardly reaches so far may be out of the lane for others.

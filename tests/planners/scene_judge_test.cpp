@@ -169,12 +169,56 @@ TEST_CASE("who leaves hardly room enough may be told to be passed, where it "
   driving_scene told;
   told.beside = {{227.4, 232.6, -2.95, -1.0, 0, 0, 0}};
   CHECK_FALSE(x.go_on(3, told));
+  SUBCASE("but not to drive there") {
+    told.beside[0].speed_mps = 20;
+    CHECK(x.go_on(3, told));
+    CHECK(x.told.lead);
+  }
   SUBCASE("and not farther beside") {
     told.beside[0].high_m = -1.6;
     told.beside[0].low_m = -3.5;
     CHECK(x.go_on(3, told));
     CHECK(x.told.lead);
   }
+}
+
+TEST_CASE("who is told to cross where a body stands is no reason to forget the "
+          "body, if it gives way or leaves") {
+  crossing_user told_instead;
+  SUBCASE("it gives way") {
+    told_instead = {227, 233, 0.01, 0.3, false, forever, 7};
+  }
+  SUBCASE("it has left") {
+    told_instead = {227, 233, -1, -0.5, true, forever, 7};
+  }
+  SUBCASE("it leaves soon") {
+    told_instead = {227, 233, 0, 2, true, forever, 7};
+  }
+  driving_scene lie;
+  lie.crossings = {told_instead};
+  told_drive_of_scenes ahead;
+  ahead.know(seen_track({230, 0}));
+  ahead.own.lead = ahead.lead(227.5);
+  CHECK_FALSE(ahead.step(lie).refused);
+  CHECK(ahead.told.lead);
+  CHECK(ahead.go_on(3, lie));
+  told_drive_of_scenes beside;
+  beside.know(seen_track({230, -1.6}));
+  beside.own.beside = {{227.5, 232.5, -2.6, -0.6, 0, 0, 0}};
+  CHECK_FALSE(beside.step(lie).refused);
+  CHECK(beside.told.beside.size() == 1);
+  CHECK(beside.go_on(3, lie));
+}
+
+TEST_CASE("who is known ahead may be told to cross while it is there") {
+  told_drive_of_scenes x;
+  auto turns_off = seen_track({230, 0}, 1.57, 4);
+  x.know(turns_off);
+  x.own.lead = x.lead(229);
+  driving_scene told;
+  told.crossings = {{227, 233, 0, 0.9, true, forever, 7}};
+  x.tracks[0].at = x.now + 1h; // it is there at each look
+  CHECK_FALSE(x.go_on(3, told));
 }
 
 TEST_CASE("a body beside is told as wide as it is known") {
