@@ -99,7 +99,7 @@ bool scene_judge::crosses_as(const own_knowledge& x, const way_stretch& place,
 }
 
 /// A lead that is told before the known one is driven at in its stead, so it
-/// may not be faster.
+/// may not be faster. How the known one goes on, it tells the vehicle itself.
 std::string_view scene_judge::hold_to_lead(const own_knowledge& x,
                                            driving_scene& told) const {
   std::string_view check;
@@ -123,6 +123,10 @@ std::string_view scene_judge::hold_to_lead(const own_knowledge& x,
       && told.lead->rear_s_m <= own->rear_s_m + off_m) {
     if (told.lead->speed_mps > own->speed_mps + limits.faster_mps)
       check = "lead";
+    if (told.lead->rear_s_m > own->rear_s_m - off_m)
+      told.lead_told = x.scene.lead_told;
+    else
+      told.lead_told.clear();
     if (told.lead->speed_mps > own->speed_mps) {
       told.lead->speed_mps = own->speed_mps;
       told.lead->accel_mps2 = std::min(told.lead->accel_mps2, own->accel_mps2);

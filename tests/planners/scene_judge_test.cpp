@@ -146,6 +146,25 @@ TEST_CASE("who is told to lead before the lead that is known drives no faster, "
   CHECK(end->first == "lead");
 }
 
+TEST_CASE("how a known lead is going to drive, only itself tells") {
+  told_drive_of_scenes x;
+  x.know(seen_track({230, 0}));
+  x.own.lead = x.lead(227.5);
+  auto lie = x.own;
+  lie.lead_told = {{227.5, 0}}; // and nobody leads from then on
+  SUBCASE("it tells nothing") {}
+  SUBCASE("it tells more") {
+    x.own.lead_told = {{227.5, 0}, {227.5, 4}, {229, 6}};
+  }
+  SUBCASE("another one is told before it") {
+    lie.lead->rear_s_m = 220;
+    lie.lead_told = {{220, 0}};
+  }
+  CHECK_FALSE(x.step(lie).refused);
+  REQUIRE(x.told.lead);
+  CHECK(x.told.lead_told.size() == x.own.lead_told.size());
+}
+
 TEST_CASE("who is told to lead before a body beside the way, faster or from "
           "behind, hides it from nobody") {
   told_drive_of_scenes x;
