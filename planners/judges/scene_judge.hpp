@@ -127,8 +127,11 @@ private:
                  const driving_scene& told) const;
   std::string_view hold_to_lead(const own_knowledge& x,
                                 driving_scene& told) const;
+  bool hold_body(const own_knowledge& x, const lane_obstacle& own,
+                 lane_obstacle& told) const;
   std::string_view hold_to_beside(const own_knowledge& x,
                                   driving_scene& told) const;
+  static bool crosses_like(const crossing_user& own, const crossing_user& told);
   std::string_view hold_to_crossings(const own_knowledge& x,
                                      driving_scene& told) const;
   bool is_known_at(const own_knowledge& x, double from_m, double to_m) const;

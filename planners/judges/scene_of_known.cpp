@@ -145,6 +145,36 @@ std::string_view scene_judge::hold_to_lead(const own_knowledge& x,
   return "lead";
 }
 
+/// Of a body that the vehicle knows, told and known, the more cautious counts.
+/// @returns whether they are no farther apart than two may see one body.
+bool scene_judge::hold_body(const own_knowledge& x, const lane_obstacle& own,
+                            lane_obstacle& told) const {
+  const auto moves_m = std::abs(own.speed_mps) * limits.for_speed_s;
+  const auto farther_m =
+      std::max(told.low_m - own.low_m, own.high_m - told.high_m);
+  const auto fits =
+      farther_m <= limits.beside_m + uncertain_m_ + moves_m
+      && std::abs(told.speed_mps - own.speed_mps) <= limits.faster_mps;
+  // What has begun, or cannot be stopped any more, needs the room that is left.
+  if (own.from_m <= front_m(x) || own.lacks_m > 0) {
+    told = own;
+    return fits;
+  }
+  const auto wider_m =
+      std::max({0.0, own.low_m - told.low_m, told.high_m - own.high_m});
+  if (farther_m > limits.widened_m + moves_m) {
+    told.low_m = std::min(told.low_m, own.low_m);
+    told.high_m = std::max(told.high_m, own.high_m);
+  }
+  told.from_m = std::min(told.from_m, own.from_m);
+  told.to_m = std::max(told.to_m, own.to_m);
+  told.speed_mps = own.speed_mps;
+  told.left_m = std::min(told.left_m, own.left_m);
+  told.lacks_m = std::min(told.lacks_m, wider_m); // else room is for it all
+  assert(told.low_m <= told.high_m && told.lacks_m >= 0);
+  return fits;
+}
+
 std::string_view scene_judge::hold_to_beside(const own_knowledge& x,
                                              driving_scene& told) const {
   std::string_view check;
@@ -176,17 +206,32 @@ std::string_view scene_judge::hold_to_beside(const own_knowledge& x,
       told.beside.push_back(own);
       continue;
     }
-    const auto farther_m =
-        std::max(same->low_m - own.low_m, own.high_m - same->high_m);
-    if (farther_m > limits.beside_m + uncertain_m_ + moves_m)
+    if (!hold_body(x, own, *same))
       check = "beside";
-    if (farther_m > limits.widened_m + moves_m) {
-      same->low_m = std::min(same->low_m, own.low_m);
-      same->high_m = std::max(same->high_m, own.high_m);
-    }
   }
+  // The opposite lane is free where the vehicle itself finds it free.
+  for (auto& o : told.beside)
+    if (o.left_m > 0
+        && std::ranges::none_of(x.scene.beside, [&](const lane_obstacle& own) {
+             return own.left_m > 0
+                    && meet(o.from_m, o.to_m, own.from_m, own.to_m,
+                            limits.along_m);
+           }))
+      o.left_m = 0;
   assert(told.beside.size() >= before);
   return check;
+}
+
+/// @returns whether somebody who is told to cross is minded as one who is known
+/// has to be. Who stands may leave at any time.
+bool scene_judge::crosses_like(const crossing_user& own,
+                               const crossing_user& told) {
+  return told.goes_first && own.goes_first
+         && meet(told.from_m, told.to_m, own.from_m, own.to_m,
+                 limits.crossing_m)
+         && told.enter_s <= own.enter_s + limits.crossing_s
+         && (std::isinf(own.leave_s)
+             || told.leave_s >= own.leave_s - limits.crossing_s);
 }
 
 std::string_view scene_judge::hold_to_crossings(const own_knowledge& x,
@@ -197,21 +242,13 @@ std::string_view scene_judge::hold_to_crossings(const own_knowledge& x,
     if (!own.goes_first || own.from_m > matters_to_m(x)
         || own.enter_s > limits.foresight_s)
       continue;
-    const auto is_told = [&](const crossing_user& c) {
-      return c.goes_first
-             && meet(c.from_m, c.to_m, own.from_m, own.to_m, limits.crossing_m)
-             && c.enter_s <= own.enter_s + limits.crossing_s
-             && c.leave_s >= own.leave_s - limits.crossing_s;
-    };
-    const auto first = told.crossings.begin();
-    const auto last = first + static_cast<std::ptrdiff_t>(count);
-    // Who stands may leave at any time.
-    const auto stands = [&](const crossing_user& c) {
-      return std::isinf(own.leave_s) && c.goes_first
-             && c.enter_s <= own.enter_s + limits.crossing_s
-             && meet(c.from_m, c.to_m, own.from_m, own.to_m, limits.crossing_m);
-    };
-    if (std::any_of(first, last, is_told) || std::any_of(first, last, stands))
+    auto is_told = false;
+    for (std::size_t k = 0; k < count; ++k)
+      if (auto& c = told.crossings[k]; crosses_like(own, c)) {
+        c.brakes_mps2 = std::max(c.brakes_mps2, own.brakes_mps2);
+        is_told = true;
+      }
+    if (is_told)
       continue;
     told.crossings.push_back(own);
     check = "crossing";

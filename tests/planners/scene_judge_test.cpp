@@ -256,6 +256,61 @@ TEST_CASE("a body beside is told as wide as it is known") {
   CHECK(end->first == "beside");
 }
 
+TEST_CASE("a body beside is told to drive as it does") {
+  told_drive_of_scenes x;
+  x.own.beside = {{227.5, 232.5, -2.6, -0.6, 0, 0, 0}};
+  auto lie = x.own;
+  lie.beside[0].speed_mps = 50;
+  CHECK_FALSE(x.step(lie).refused);
+  REQUIRE(x.told.beside.size() == 1);
+  CHECK(x.told.beside[0].speed_mps == 0);
+  const auto end = x.go_on(3, lie);
+  REQUIRE(end);
+  CHECK(end->first == "beside");
+}
+
+TEST_CASE("nobody is told more room beside a body than the vehicle knows of") {
+  told_drive_of_scenes x;
+  x.own.beside = {{227.5, 232.5, -2.6, -0.6, 0, 0, 0}};
+  auto lie = x.own;
+  SUBCASE("on the opposite lane") {
+    lie.beside[0].left_m = 8;
+  }
+  SUBCASE("on the opposite lane, for a body that it does not know") {
+    lie.beside.push_back({240, 245, -1, 1, 0, 0, 8});
+  }
+  SUBCASE("out of the lane") {
+    lie.beside[0].lacks_m = 3;
+  }
+  SUBCASE("behind its middle") {
+    lie.beside[0].to_m = 230;
+  }
+  CHECK_FALSE(x.step(lie).refused);
+  for (const auto& o : x.told.beside) {
+    CHECK(o.left_m == 0);
+    CHECK(o.lacks_m == 0);
+  }
+  CHECK(x.told.beside[0].to_m == 232.5);
+}
+
+TEST_CASE("a body that is being passed takes what is known of it") {
+  told_drive_of_scenes x;
+  x.own.beside = {{202, 207, -2.6, -0.6, 0, 0, 3.5}};
+  auto lie = x.own;
+  lie.beside[0].left_m = 0; // no way round it: left out of the plan
+  CHECK_FALSE(x.step(lie).refused);
+  CHECK(x.told.beside[0].left_m == 3.5);
+}
+
+TEST_CASE("who crosses first is not told to brake for the own car") {
+  told_drive_of_scenes x;
+  x.own.crossings = {{220, 226, 0.5, 3, true, 4, 7}};
+  auto lie = x.own;
+  lie.crossings[0].brakes_mps2 = 0.1;
+  CHECK_FALSE(x.step(lie).refused);
+  CHECK(x.told.crossings[0].brakes_mps2 == 4);
+}
+
 TEST_CASE("who crosses first is not told to cross later, or to give way") {
   told_drive_of_scenes x;
   x.own.crossings = {{220, 226, 0.5, 3, true, forever, 7}};
