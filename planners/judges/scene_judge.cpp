@@ -42,15 +42,6 @@ bool are_alike(const List& one, const List& other, double from_m, double to_m,
   return all_in(one, other) && all_in(other, one);
 }
 
-void sort_lists(driving_scene& x) {
-  std::ranges::sort(x.crossings, {}, [](const crossing_user& c) {
-    return std::tuple{c.from_m, c.to_m, c.body};
-  });
-  std::ranges::sort(x.beside, {}, [](const lane_obstacle& o) {
-    return std::tuple{o.from_m, o.low_m};
-  });
-}
-
 } // namespace
 
 scene_judge::scene_judge(const world::vehicle_params& car,
@@ -88,11 +79,15 @@ scene_verdict scene_judge::judge(const own_knowledge& x,
   }
   assert(passed_s >= 0);
   const auto waits = wait(x, told, passed_s); // before it is more cautious
-  std::array checks{find_impossible(told),   find_added(x, houses, told),
-                    hold_to_map(x, told),    hold_to_lead(x, told),
-                    hold_to_beside(x, told), hold_to_crossings(x, told)};
+  // Who crosses may stand for a lead, or a body beside: if it is minded.
+  std::array checks{find_impossible(told), find_added(x, houses, told),
+                    hold_to_map(x, told),  hold_to_crossings(x, told),
+                    hold_to_lead(x, told), hold_to_beside(x, told)};
   told.is_impatient = told.is_impatient && x.scene.is_impatient;
-  sort_lists(told);
+  sort_crossings(told);
+  std::ranges::sort(told.beside, {}, [](const lane_obstacle& o) {
+    return std::tuple{o.from_m, o.low_m};
+  });
   if (!waits.empty())
     return {objection{waits, waited_s_, limits.most_waited_s}};
   const auto found = std::ranges::find_if(

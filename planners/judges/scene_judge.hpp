@@ -13,6 +13,7 @@
 #include "world/roads/route.hpp"
 #include "world/vehicle/vehicle.hpp"
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -51,13 +52,15 @@ struct scene_limits {
   double widened_m = 0.15;   ///< From so much on the more cautious counts.
   double touches_m = 0.1;    ///< Who is so near a car on its line matters.
   double most_lacking_m = 0.3;
-  double crossing_m = 3.0;  ///< A stretch that others cross, told and known,
-  double crossing_s = 1.5;  ///< and when.
-  double foresight_s = 5.0; ///< Who comes later may yet turn.
-  double here_s = 0.5;      ///< Who is on the stretch.
-  double map_m = 1.5;       ///< Where a crossing begins or ends.
-  double map_from_m = 3.0;  ///< Ahead of the front bumper, looked at from
-  double map_to_m = 120;    ///< and to there.
+  double crossing_m = 3.0;     ///< A stretch that others cross, told and known,
+  double crossing_s = 1.5;     ///< and when.
+  double foresight_s = 5.0;    ///< Who comes later may yet turn.
+  std::size_t most_minded = 4; ///< Who cross: planners mind no more of them,
+  std::size_t most_places = 16; ///< and no more places.
+  double here_s = 0.5;          ///< Who is on the stretch.
+  double map_m = 1.5;           ///< Where a crossing begins or ends.
+  double map_from_m = 3.0;      ///< Ahead of the front bumper, looked at from
+  double map_to_m = 120;        ///< and to there.
 
   double corridor_m = corridor::room_beside_m / 2; ///< Beside the line.
   double looked_for_m = 20;       ///< Bodies, from where they are told to be.
@@ -132,6 +135,10 @@ private:
   std::string_view hold_to_beside(const own_knowledge& x,
                                   driving_scene& told) const;
   static bool crosses_like(const crossing_user& own, const crossing_user& told);
+  bool matters(const own_knowledge& x, const crossing_user& own) const;
+  void leave_out_far(const own_knowledge& x, driving_scene& told) const;
+  static bool is_crowded(std::span<const crossing_user> users);
+  static void sort_crossings(driving_scene& x);
   std::string_view hold_to_crossings(const own_knowledge& x,
                                      driving_scene& told) const;
   bool is_known_at(const own_knowledge& x, double from_m, double to_m) const;

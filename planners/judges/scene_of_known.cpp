@@ -9,7 +9,9 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <string_view>
+#include <tuple>
 
 namespace sofof::planners {
 
@@ -234,14 +236,57 @@ bool scene_judge::crosses_like(const crossing_user& own,
              || told.leave_s >= own.leave_s - limits.crossing_s);
 }
 
+/// @returns whether a planner minds somebody of a known place in any case.
+bool scene_judge::matters(const own_knowledge& x,
+                          const crossing_user& own) const {
+  return own.goes_first && own.from_m <= matters_to_m(x)
+         && own.enter_s <= limits.foresight_s;
+}
+
+void scene_judge::sort_crossings(driving_scene& x) {
+  std::ranges::sort(x.crossings, {}, [](const crossing_user& c) {
+    return std::tuple{c.from_m, c.to_m, c.body};
+  });
+}
+
+/// @returns whether a planner minds not all of those who cross first.
+bool scene_judge::is_crowded(std::span<const crossing_user> users) {
+  if (users.size() <= limits.most_minded)
+    return false;
+  std::size_t bodies = 0, places = 0;
+  for (std::size_t k = 0; k < users.size(); ++k) {
+    const auto before = users.first(k);
+    places += users[k].goes_first;
+    bodies += users[k].goes_first
+              && std::ranges::none_of(before, [&](const crossing_user& y) {
+                   return y.goes_first && y.body == users[k].body;
+                 });
+  }
+  return bodies > limits.most_minded || places > limits.most_places;
+}
+
+/// A planner minds so many that cross and no more: those that the vehicle knows
+/// are among them. Of the others the farthest are left out.
+void scene_judge::leave_out_far(const own_knowledge& x,
+                                driving_scene& told) const {
+  auto& all = told.crossings;
+  assert(std::ranges::is_sorted(all, {}, &crossing_user::from_m));
+  for (auto k = all.size(); k-- > 0 && is_crowded(all);)
+    if (std::ranges::none_of(x.scene.crossings, [&](const crossing_user& own) {
+          return matters(x, own) && crosses_like(own, all[k]);
+        }))
+      all.erase(all.begin() + static_cast<std::ptrdiff_t>(k));
+}
+
 std::string_view scene_judge::hold_to_crossings(const own_knowledge& x,
                                                 driving_scene& told) const {
   std::string_view check;
+  auto any = false;
   const auto count = told.crossings.size();
   for (const auto& own : x.scene.crossings) {
-    if (!own.goes_first || own.from_m > matters_to_m(x)
-        || own.enter_s > limits.foresight_s)
+    if (!matters(x, own))
       continue;
+    any = true;
     auto is_told = false;
     for (std::size_t k = 0; k < count; ++k)
       if (auto& c = told.crossings[k]; crosses_like(own, c)) {
@@ -255,6 +300,10 @@ std::string_view scene_judge::hold_to_crossings(const own_knowledge& x,
   }
   assert(told.crossings.size() >= count);
   assert(check.empty() == (told.crossings.size() == count));
+  if (any && is_crowded(told.crossings)) {
+    sort_crossings(told);
+    leave_out_far(x, told);
+  }
   return check;
 }
 

@@ -2,6 +2,7 @@
 // and what it must not refuse.
 #include "planners/judges/scene_judge.hpp"
 
+#include "planners/trajectory/maneuver_candidates.hpp"
 #include "tests/planners/onlooker.hpp"
 
 #include <doctest/doctest.h>
@@ -10,6 +11,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -309,6 +311,29 @@ TEST_CASE("who crosses first is not told to brake for the own car") {
   lie.crossings[0].brakes_mps2 = 0.1;
   CHECK_FALSE(x.step(lie).refused);
   CHECK(x.told.crossings[0].brakes_mps2 == 4);
+}
+
+TEST_CASE("a crowd that crosses elsewhere hides nobody who is known to cross") {
+  told_drive_of_scenes x;
+  x.own.crossings = {{230, 236, 2, 6, true, forever, 7}};
+  auto lie = x.own;
+  SUBCASE("far away") {
+    for (std::uint32_t k = 0; k < 4; ++k)
+      lie.crossings.push_back({500. + k, 501. + k, -1, 150, true, 9, 100 + k});
+  }
+  SUBCASE("before, and for a moment") {
+    lie.crossings.clear();
+    for (std::uint32_t k = 0; k < 20; ++k)
+      lie.crossings.push_back({209. + k, 210. + k, 0, 1, true, 9, 100});
+    lie.crossings.push_back(x.own.crossings[0]);
+  }
+  x.step(lie);
+  std::set<std::uint32_t> bodies;
+  for (const auto& c : x.told.crossings)
+    bodies.insert(c.body);
+  CHECK(bodies.contains(7));
+  CHECK(bodies.size() <= crossing_order::most_cars); // of a planner
+  CHECK(x.told.crossings.size() <= crossing_order::most_windows);
 }
 
 TEST_CASE("who crosses first is not told to cross later, or to give way") {
