@@ -8,6 +8,7 @@
 #include "planners/scene/line_of_sight.hpp"
 #include "planners/scene/object_tracker.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -111,7 +112,7 @@ private:
   };
   /// Told and seen, of one body.
   struct offset {
-    std::uint32_t id;
+    point of; // where it was seen last
     double along_m, across_m;
     int looks;
     time_point at;
@@ -120,6 +121,9 @@ private:
   struct comparison {
     double along_m, across_m, speed_mps;
     bool in_place, alike;
+
+    double off_m() const { return std::hypot(along_m, across_m); }
+    bool fits() const { return in_place && alike && off_m() < limits.mean_m; }
   };
 
   double matters_m(const judged_tracks& x) const;
@@ -131,8 +135,8 @@ private:
   const past_look* look_before(time_point t) const;
   static bool was_there(const past_look& then,
                         const world::perceived_object& body, time_point at);
-  bool is_off_on_average(std::uint32_t id, const comparison& how,
-                         double speed_mps, time_point at);
+  bool is_off_on_average(const world::perceived_object& seen,
+                         const comparison& how, time_point at);
   void remember(const judged_tracks& x, double matters_m);
 
   sighting_noise noise_;
