@@ -264,6 +264,32 @@ std::string_view track_judge::look_for_told(const judged_tracks& x,
   return {};
 }
 
+/// @returns whether a body that is told by a new number, near the vehicle, is
+/// elsewhere than the nearest of those that moved like it and are gone.
+bool track_judge::jumps_by_another_number(point from, double passed_s) const {
+  const auto has = [](const auto& list, std::uint32_t id) {
+    return std::ranges::binary_search(list, id, {},
+                                      [](const auto& x) { return x.first; });
+  };
+  assert(passed_s > 0);
+  return std::ranges::any_of(told_now_, [&](const auto& now) {
+    const auto& [id, o] = now;
+    if (squared_m2(o.centre, from) > limits.renamed_m * limits.renamed_m
+        || has(told_before_, id))
+      return false;
+    const world::perceived_object* nearest = nullptr;
+    for (const auto& [gone, was] : told_before_)
+      if (std::abs(was.speed_mps - o.speed_mps) < limits.speed_mps
+          && dot(facing(was), facing(o)) > limits.same_way
+          && (!nearest
+              || squared_m2(was.centre, o.centre)
+                     < squared_m2(nearest->centre, o.centre))
+          && !has(told_now_, gone))
+        nearest = &was;
+    return nearest && is_elsewhere(*nearest, o, passed_s, limits.jump_m);
+  });
+}
+
 /// Whatever the place: a number or a motion that no road user has.
 std::string_view track_judge::find_impossible(const judged_tracks& x) {
   assert(x.told.size() == x.ids.size());
@@ -283,17 +309,24 @@ std::string_view track_judge::find_impossible(const judged_tracks& x) {
   if (!std::ranges::is_sorted(told_now_, {}, id_of))
     std::ranges::sort(told_now_, {}, id_of);
   assert(told_now_.size() == x.told.size());
+  const auto passed_s = to_seconds(x.at - told_at_);
+  std::size_t known = 0;
   auto before = told_before_.begin();
   for (const auto& [id, o] : told_now_) {
     before = std::find_if(before, told_before_.end(),
                           [id = id](const auto& y) { return y.first >= id; });
-    if (before == told_before_.end() || x.at <= told_at_)
+    if (before == told_before_.end() || passed_s <= 0)
       break;
-    if (before->first == id
-        && is_elsewhere(before->second, o, to_seconds(x.at - told_at_),
-                        limits.jump_m))
+    if (before->first != id)
+      continue;
+    ++known;
+    if (is_elsewhere(before->second, o, passed_s, limits.jump_m))
       check = "jump";
   }
+  if (known < told_now_.size() && known < told_before_.size() && passed_s > 0
+      && passed_s < limits.longest_pause_s
+      && jumps_by_another_number(x.look.from.at, passed_s))
+    check = "jump";
   told_at_ = x.at;
   return check;
 }

@@ -241,6 +241,35 @@ TEST_CASE("a body that no road user is, or that jumps, is refused wherever it "
   }
 }
 
+TEST_CASE("a body that jumps is refused, whatever number it is told by") {
+  told_drive_of_tracks x;
+  std::uint32_t number = 0;
+  auto side_m = 20.0;
+  const auto end = x.go_on(3, [&] {
+    side_m = -side_m;
+    x.told = {{++number, told_car(40, side_m)}};
+  });
+  REQUIRE(end);
+  CHECK(end->first == "jump");
+}
+
+TEST_CASE("who is told by another number where it is, or comes as another one "
+          "goes, is believed") {
+  told_drive_of_tracks x;
+  std::uint32_t number = 0;
+  SUBCASE("where it is") {
+    CHECK_FALSE(x.go_on(3, [&] {
+      x.told = {{++number, told_car(40, 20, 0)}};
+    }));
+  }
+  SUBCASE("one comes, one goes") {
+    x.told = {{1, told_car(40, 20)}};
+    CHECK_FALSE(x.go_on(1));
+    x.told = {{2, told_car(40, -20)}};
+    CHECK_FALSE(x.go_on(1));
+  }
+}
+
 TEST_CASE("who changes from one lie to the next is refused as soon") {
   told_drive_of_tracks x;
   x.seen = {told_car(20, 3)};
