@@ -189,7 +189,7 @@ std::string_view scene_judge::hold_to_beside(const own_knowledge& x,
     const auto moves_m = std::abs(own.speed_mps) * limits.for_speed_s;
     const auto off_m = limits.along_m + moves_m;
     assert(off_m >= limits.along_m);
-    if (own.from_m > matters_to_m(x) || own.to_m < front_m(x)
+    if (own.from_m > matters_to_m(x) || own.to_m < x.s_m - car_.rear_m
         || own.low_m > nearest_m || own.high_m < -nearest_m
         || leads_before(x, own.from_m + off_m, std::abs(own.speed_mps), told))
       continue;

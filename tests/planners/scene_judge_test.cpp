@@ -304,6 +304,13 @@ TEST_CASE("a body that is being passed takes what is known of it") {
   CHECK(x.told.beside[0].left_m == 3.5);
 }
 
+TEST_CASE("a body is beside the way until the own rear is past it") {
+  told_drive_of_scenes x;
+  x.own.beside = {{197, 202, -1.6, 0.4, 0, 0, 3.5}};
+  CHECK_FALSE(x.step({}).refused);
+  CHECK(x.told.beside.size() == 1);
+}
+
 TEST_CASE("who crosses first is not told to brake for the own car") {
   told_drive_of_scenes x;
   x.own.crossings = {{220, 226, 0.5, 3, true, 4, 7}};
