@@ -27,7 +27,12 @@ constexpr double same_body_m = 3;
 constexpr double to_left_m = 3, slower_by = 0.5;
 constexpr double added_m = 15, added_lead_m = 12;
 constexpr double farther_m = 12, farther_beside_m = 1.5, map_off_m = 8;
-constexpr std::uint32_t made_up_id = 60'000; ///< No tracker counts so far.
+constexpr double a_little_on_m = 0.7, a_little_left_m = 0.45;
+constexpr double nearer_m = 5, fast_mps = 50;
+constexpr double far_m = 300, crowd_s = 150;
+constexpr std::uint32_t crowd = 4;
+constexpr std::uint32_t most_made_up = 5'000; ///< Messages number no more.
+constexpr std::uint32_t made_up_id = 60'000;  ///< No tracker counts so far.
 
 planners::track track_of(const world::perceived_object& x, std::uint32_t id,
                          time_point at) {
@@ -82,10 +87,48 @@ void change(messages::object_list& told, const messages::object_list& seen,
       x.centre = x.centre + to_left_m * left;
     else if (what == chain_lie::tracks_slowed)
       x.speed_mps *= slower_by;
+    else if (what == chain_lie::tracks_new_ids)
+      x.centre = x.centre + a_little_on_m * messages::unit_vector(x.heading_rad)
+                 + a_little_left_m * left;
     else if (what == chain_lie::tracks_removed) {
       told.objects.erase(told.objects.begin() + static_cast<std::ptrdiff_t>(k));
       told.ids.erase(told.ids.begin() + static_cast<std::ptrdiff_t>(k));
     }
+  }
+}
+
+/// Whoever leads or is beside is told to cross there, and to give way.
+void give_way(planners::driving_scene& told) {
+  constexpr auto at_once_s = 0.01, soon_s = 0.3;
+  const auto cross = [&](double from_m, double to_m, std::uint32_t body) {
+    planners::crossing_user x;
+    x.from_m = from_m;
+    x.to_m = to_m;
+    x.enter_s = at_once_s;
+    x.leave_s = soon_s;
+    x.goes_first = false;
+    x.body = body;
+    told.crossings.push_back(x);
+  };
+  auto id = made_up_id;
+  if (told.lead)
+    cross(told.lead->rear_s_m, told.lead->rear_s_m + same_body_m, id++);
+  for (const auto& x : told.beside)
+    cross(x.from_m, x.to_m, id++);
+  told.lead.reset();
+  told.lead_told.clear();
+  told.beside.clear();
+}
+
+void add_crowd(planners::driving_scene& told) {
+  for (std::uint32_t k = 0; k < crowd; ++k) {
+    planners::crossing_user x;
+    x.from_m = far_m + k;
+    x.to_m = x.from_m + same_body_m;
+    x.enter_s = -1;
+    x.leave_s = crowd_s;
+    x.body = made_up_id + k;
+    told.crossings.push_back(x);
   }
 }
 
@@ -122,9 +165,31 @@ void change(planners::driving_scene& told, chain_lie what) {
     case chain_lie::scene_map:
       actors::move(told, map_off_m);
       break;
+    case chain_lie::scene_lead_fast:
+      if (told.lead) {
+        told.lead->rear_s_m -= nearer_m;
+        told.lead->speed_mps = fast_mps;
+        told.lead_told.clear();
+      }
+      break;
+    case chain_lie::scene_gives_way:
+      give_way(told);
+      break;
+    case chain_lie::scene_told_moment:
+      if (told.lead)
+        told.lead_told = {{told.lead->rear_s_m, 0}};
+      break;
+    case chain_lie::scene_beside_fast:
+      for (auto& x : told.beside)
+        x.speed_mps = fast_mps;
+      break;
+    case chain_lie::scene_far_crossings:
+      add_crowd(told);
+      break;
     default:
       break;
   }
+  std::ranges::sort(told.crossings, {}, &planners::crossing_user::from_m);
 }
 
 /// An honest function whose results are changed on their way out.
@@ -157,7 +222,7 @@ public:
 private:
   messages::its_pdu tracks(const messages::its_pdu& honest,
                            const messages::service_input& input,
-                           time_point now) const {
+                           time_point now) {
     const auto look = input.what.as<messages::its_pdu>();
     const auto seen =
         look ? actors::read_objects(*look, *world_, now) : std::nullopt;
@@ -165,6 +230,9 @@ private:
     if (!told || !seen || !seen->eye)
       return {};
     change(*told, *seen, what_);
+    if (what_ == chain_lie::tracks_new_ids)
+      for (auto& id : told->ids)
+        id = made_up_id + ++renumbered_ % most_made_up;
     std::vector<planners::track> changed;
     for (std::size_t k = 0; k < told->objects.size(); ++k)
       changed.push_back(track_of(told->objects[k], told->ids[k], told->at));
@@ -193,6 +261,7 @@ private:
   chain_lie what_;
   duration after_;
   std::optional<time_point> began_;
+  std::uint32_t renumbered_ = 0;
 };
 
 class lying_part_at_provider final : public real_at_provider {

@@ -5,6 +5,7 @@
 #include "base/objection.hpp"
 #include "planners/judges/lasting_doubt.hpp"
 #include "planners/plausibility/witness.hpp"
+#include "planners/scene/corridor.hpp"
 #include "planners/scene/driving_scene.hpp"
 #include "planners/scene/line_of_sight.hpp"
 #include "planners/scene/object_tracker.hpp"
@@ -12,6 +13,7 @@
 #include "world/roads/route.hpp"
 #include "world/vehicle/vehicle.hpp"
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -50,13 +52,19 @@ struct scene_limits {
   double widened_m = 0.15;   ///< From so much on the more cautious counts.
   double touches_m = 0.1;    ///< Who is so near a car on its line matters.
   double most_lacking_m = 0.3;
-  double crossing_m = 3.0;  ///< A stretch that others cross, told and known,
-  double crossing_s = 1.5;  ///< and when.
-  double foresight_s = 5.0; ///< Who comes later may yet turn.
-  double here_s = 0.5;      ///< Who is on the stretch.
-  double map_m = 1.5;       ///< Where a crossing begins or ends.
-  double map_from_m = 3.0;  ///< Ahead of the front bumper, looked at from
-  double map_to_m = 120;    ///< and to there.
+  double crossing_m = 3.0;     ///< A stretch that others cross, told and known,
+  double crossing_s = 1.5;     ///< and when.
+  double foresight_s = 5.0;    ///< Who comes later may yet turn.
+  std::size_t most_minded = 4; ///< Who cross: planners mind no more of them,
+  std::size_t most_places = 16; ///< and no more places.
+  double here_s = 0.5;          ///< Who is on the stretch.
+  double map_m = 1.5;           ///< Where a crossing begins or ends.
+  double map_from_m = 3.0;      ///< Ahead of the front bumper, looked at from
+  double map_to_m = 120;        ///< and to there.
+
+  double corridor_m = corridor::room_beside_m / 2; ///< Beside the line.
+  double looked_for_m = 20;       ///< Bodies, from where they are told to be.
+  double lead_speeds_up_mps2 = 3; ///< That drives as it tells.
 
   double most_speed_mps = 60;
   double most_accel_mps2 = 14;
@@ -103,19 +111,34 @@ public:
 private:
   static constexpr scene_limits limits{};
 
+  static bool meet(double a_from_m, double a_to_m, double b_from_m,
+                   double b_to_m, double slack_m) {
+    return a_from_m <= b_to_m + slack_m && b_from_m <= a_to_m + slack_m;
+  }
+
   double front_m(const own_knowledge& x) const { return x.s_m + car_.front_m; }
   double matters_to_m(const own_knowledge& x) const;
   static std::string_view find_impossible(const driving_scene& told);
   std::string_view hold_to_map(const own_knowledge& x,
                                driving_scene& told) const;
-  bool is_covered(const own_knowledge& x, const lead_vehicle& lead,
-                  const driving_scene& told) const;
+  bool leads_before(const own_knowledge& x, double at_m, double speed_mps,
+                    const driving_scene& told) const;
+  double gone_s(const own_knowledge& x, double at_m, double to_m) const;
+  bool crosses_as(const own_knowledge& x, const way_stretch& place,
+                  double off_m, const driving_scene& told) const;
   bool is_passed(const own_knowledge& x, double at_m,
                  const driving_scene& told) const;
   std::string_view hold_to_lead(const own_knowledge& x,
                                 driving_scene& told) const;
+  bool hold_body(const own_knowledge& x, const lane_obstacle& own,
+                 lane_obstacle& told) const;
   std::string_view hold_to_beside(const own_knowledge& x,
                                   driving_scene& told) const;
+  static bool crosses_like(const crossing_user& own, const crossing_user& told);
+  bool matters(const own_knowledge& x, const crossing_user& own) const;
+  void leave_out_far(const own_knowledge& x, driving_scene& told) const;
+  static bool is_crowded(std::span<const crossing_user> users);
+  static void sort_crossings(driving_scene& x);
   std::string_view hold_to_crossings(const own_knowledge& x,
                                      driving_scene& told) const;
   bool is_known_at(const own_knowledge& x, double from_m, double to_m) const;

@@ -161,20 +161,25 @@ track_judge::compare(const world::perceived_object& seen, point axis,
   return x;
 }
 
-/// @returns whether a slow body is told beside its place, look after look.
-bool track_judge::is_off_on_average(std::uint32_t id, const comparison& how,
-                                    double speed_mps, time_point at) {
-  auto it = std::ranges::find(offsets_, id, &offset::id);
-  if (std::abs(speed_mps) > limits.slow_mps) {
-    if (it != offsets_.end())
-      offsets_.erase(it);
+/// @returns whether a slow body is told beside its place, look after look:
+/// whatever its number, as who lies gives a new one each time.
+bool track_judge::is_off_on_average(const world::perceived_object& seen,
+                                    const comparison& how, time_point at) {
+  if (std::abs(seen.speed_mps) > limits.slow_mps)
     return false;
-  }
+  auto nearest_m2 = place_across_m * place_across_m;
+  auto it = offsets_.end();
+  for (auto o = offsets_.begin(); o != offsets_.end(); ++o)
+    if (const auto m2 = squared_m2(o->of, seen.centre); m2 < nearest_m2) {
+      nearest_m2 = m2;
+      it = o;
+    }
   if (it == offsets_.end()) {
-    offsets_.push_back({id, how.along_m, how.across_m, 1, at});
+    offsets_.push_back({seen.centre, how.along_m, how.across_m, 1, at});
     return false;
   }
   if (at > it->at) {
+    it->of = seen.centre;
     ++it->looks;
     const auto share = std::max(1.0 / it->looks, limits.mean_share);
     assert(share > 0 && share <= 1);
@@ -209,16 +214,18 @@ std::string_view track_judge::look_for_seen(const judged_tracks& x) {
   std::string_view check;
   for (const auto& body : past_.back().seen) {
     const auto axis = facing(body);
-    auto is_told = false, is_near = false;
-    for (std::size_t k = 0; k < told_.size() && !is_told; ++k) {
+    auto is_near = false;
+    std::optional<comparison> best; // of all who are told to be this one
+    for (std::size_t k = 0; k < told_.size() && !(best && best->fits()); ++k) {
       const auto apart_m2 = squared_m2(told_[k].centre, body.centre);
       if (apart_m2 > limits.near_m * limits.near_m)
         continue;
       is_near = true;
       const auto how = compare(body, axis, told_[k], apart_s);
-      is_told = how.in_place && how.alike
-                && !is_off_on_average(x.ids[k], how, body.speed_mps, seen_at);
+      if (how.in_place && how.alike && !(best && best->off_m() < how.off_m()))
+        best = how;
     }
+    const auto is_told = best && !is_off_on_average(body, *best, seen_at);
     if (is_told)
       continue;
     // Whoever begins knows nothing of former looks.
@@ -257,6 +264,32 @@ std::string_view track_judge::look_for_told(const judged_tracks& x,
   return {};
 }
 
+/// @returns whether a body that is told by a new number, near the vehicle, is
+/// elsewhere than the nearest of those that moved like it and are gone.
+bool track_judge::jumps_by_another_number(point from, double passed_s) const {
+  const auto has = [](const auto& list, std::uint32_t id) {
+    return std::ranges::binary_search(list, id, {},
+                                      [](const auto& x) { return x.first; });
+  };
+  assert(passed_s > 0);
+  return std::ranges::any_of(told_now_, [&](const auto& now) {
+    const auto& [id, o] = now;
+    if (squared_m2(o.centre, from) > limits.renamed_m * limits.renamed_m
+        || has(told_before_, id))
+      return false;
+    const world::perceived_object* nearest = nullptr;
+    for (const auto& [gone, was] : told_before_)
+      if (std::abs(was.speed_mps - o.speed_mps) < limits.speed_mps
+          && dot(facing(was), facing(o)) > limits.same_way
+          && (!nearest
+              || squared_m2(was.centre, o.centre)
+                     < squared_m2(nearest->centre, o.centre))
+          && !has(told_now_, gone))
+        nearest = &was;
+    return nearest && is_elsewhere(*nearest, o, passed_s, limits.jump_m);
+  });
+}
+
 /// Whatever the place: a number or a motion that no road user has.
 std::string_view track_judge::find_impossible(const judged_tracks& x) {
   assert(x.told.size() == x.ids.size());
@@ -276,17 +309,24 @@ std::string_view track_judge::find_impossible(const judged_tracks& x) {
   if (!std::ranges::is_sorted(told_now_, {}, id_of))
     std::ranges::sort(told_now_, {}, id_of);
   assert(told_now_.size() == x.told.size());
+  const auto passed_s = to_seconds(x.at - told_at_);
+  std::size_t known = 0;
   auto before = told_before_.begin();
   for (const auto& [id, o] : told_now_) {
     before = std::find_if(before, told_before_.end(),
                           [id = id](const auto& y) { return y.first >= id; });
-    if (before == told_before_.end() || x.at <= told_at_)
+    if (before == told_before_.end() || passed_s <= 0)
       break;
-    if (before->first == id
-        && is_elsewhere(before->second, o, to_seconds(x.at - told_at_),
-                        limits.jump_m))
+    if (before->first != id)
+      continue;
+    ++known;
+    if (is_elsewhere(before->second, o, passed_s, limits.jump_m))
       check = "jump";
   }
+  if (known < told_now_.size() && known < told_before_.size() && passed_s > 0
+      && passed_s < limits.longest_pause_s
+      && jumps_by_another_number(x.look.from.at, passed_s))
+    check = "jump";
   told_at_ = x.at;
   return check;
 }

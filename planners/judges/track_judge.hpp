@@ -8,6 +8,7 @@
 #include "planners/scene/line_of_sight.hpp"
 #include "planners/scene/object_tracker.hpp"
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -61,7 +62,9 @@ struct track_limits {
   double most_accel_mps2 = 14;
   double most_length_m = 55;
   double most_width_m = 12;
-  double jump_m = 4.0; ///< More than speed and braking explain.
+  double jump_m = 4.0;   ///< More than speed and braking explain.
+  double renamed_m = 60; ///< So near a new number may be of a known body
+  double same_way = 0.9; ///< that drives so, cosine.
 
   double doubt_s = 1.0;          ///< So long a doubt has to last.
   double longest_pause_s = 0.25; ///< Between two results in a row.
@@ -78,7 +81,8 @@ struct track_limits {
 ///   otherwise than it does, or to be smaller.
 /// * `added`: a body is told where the vehicle looks freely, now and 0.3 s
 ///   before, and sees none.
-/// * `jump`: a body is where its own motion does not lead.
+/// * `jump`: a body is where its own motion does not lead; near the vehicle by
+///   another number, too.
 /// * `limits`: no road user is so fast, speeds up or brakes so hard, or is so
 ///   large.
 ///
@@ -111,7 +115,7 @@ private:
   };
   /// Told and seen, of one body.
   struct offset {
-    std::uint32_t id;
+    point of; // where it was seen last
     double along_m, across_m;
     int looks;
     time_point at;
@@ -120,6 +124,9 @@ private:
   struct comparison {
     double along_m, across_m, speed_mps;
     bool in_place, alike;
+
+    double off_m() const { return std::hypot(along_m, across_m); }
+    bool fits() const { return in_place && alike && off_m() < limits.mean_m; }
   };
 
   double matters_m(const judged_tracks& x) const;
@@ -128,11 +135,12 @@ private:
   std::string_view look_for_seen(const judged_tracks& x);
   std::string_view look_for_told(const judged_tracks& x, double matters_m);
   std::string_view find_impossible(const judged_tracks& x);
+  bool jumps_by_another_number(point from, double passed_s) const;
   const past_look* look_before(time_point t) const;
   static bool was_there(const past_look& then,
                         const world::perceived_object& body, time_point at);
-  bool is_off_on_average(std::uint32_t id, const comparison& how,
-                         double speed_mps, time_point at);
+  bool is_off_on_average(const world::perceived_object& seen,
+                         const comparison& how, time_point at);
   void remember(const judged_tracks& x, double matters_m);
 
   sighting_noise noise_;

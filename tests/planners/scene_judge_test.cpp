@@ -2,6 +2,7 @@
 // and what it must not refuse.
 #include "planners/judges/scene_judge.hpp"
 
+#include "planners/trajectory/maneuver_candidates.hpp"
 #include "tests/planners/onlooker.hpp"
 
 #include <doctest/doctest.h>
@@ -10,6 +11,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -124,6 +126,62 @@ TEST_CASE("a lead that is known and not told, or told farther or faster, is "
   CHECK(end->second < 1.3);
 }
 
+TEST_CASE("who is told to lead before the lead that is known drives no faster, "
+          "and does not lead from behind") {
+  told_drive_of_scenes x;
+  x.know(seen_track({230, 0}));
+  x.own.lead = x.lead(227.5);
+  driving_scene lie;
+  SUBCASE("nearer and faster") {
+    lie.lead = x.lead(222.5, 50);
+    CHECK_FALSE(x.step(lie).refused);
+    CHECK(x.told.lead->rear_s_m == 222.5);
+  }
+  SUBCASE("behind the own car") {
+    lie.lead = x.lead(100);
+    CHECK_FALSE(x.step(lie).refused);
+    CHECK(x.told.lead->rear_s_m == 227.5);
+  }
+  CHECK(x.told.lead->speed_mps == 0);
+  const auto end = x.go_on(3, lie);
+  REQUIRE(end);
+  CHECK(end->first == "lead");
+}
+
+TEST_CASE("how a known lead is going to drive, only itself tells") {
+  told_drive_of_scenes x;
+  x.know(seen_track({230, 0}));
+  x.own.lead = x.lead(227.5);
+  auto lie = x.own;
+  lie.lead_told = {{227.5, 0}}; // and nobody leads from then on
+  SUBCASE("it tells nothing") {}
+  SUBCASE("it tells more") {
+    x.own.lead_told = {{227.5, 0}, {227.5, 4}, {229, 6}};
+  }
+  SUBCASE("another one is told before it") {
+    lie.lead->rear_s_m = 220;
+    lie.lead_told = {{220, 0}};
+  }
+  CHECK_FALSE(x.step(lie).refused);
+  REQUIRE(x.told.lead);
+  CHECK(x.told.lead_told.size() == x.own.lead_told.size());
+}
+
+TEST_CASE("who is told to lead before a body beside the way, faster or from "
+          "behind, hides it from nobody") {
+  told_drive_of_scenes x;
+  x.own.beside = {{227.5, 232.5, -2.6, -0.6, 0, 0, 0}};
+  driving_scene lie;
+  SUBCASE("faster") {
+    lie.lead = x.lead(224.5, 50);
+  }
+  SUBCASE("from behind") {
+    lie.lead = x.lead(100);
+  }
+  CHECK_FALSE(x.step(lie).refused);
+  CHECK(x.told.beside.size() == 1);
+}
+
 TEST_CASE("who leaves hardly room enough may be told to be passed, where it "
           "is") {
   told_drive_of_scenes x;
@@ -132,12 +190,56 @@ TEST_CASE("who leaves hardly room enough may be told to be passed, where it "
   driving_scene told;
   told.beside = {{227.4, 232.6, -2.95, -1.0, 0, 0, 0}};
   CHECK_FALSE(x.go_on(3, told));
+  SUBCASE("but not to drive there") {
+    told.beside[0].speed_mps = 20;
+    CHECK(x.go_on(3, told));
+    CHECK(x.told.lead);
+  }
   SUBCASE("and not farther beside") {
     told.beside[0].high_m = -1.6;
     told.beside[0].low_m = -3.5;
     CHECK(x.go_on(3, told));
     CHECK(x.told.lead);
   }
+}
+
+TEST_CASE("who is told to cross where a body stands is no reason to forget the "
+          "body, if it gives way or leaves") {
+  crossing_user told_instead;
+  SUBCASE("it gives way") {
+    told_instead = {227, 233, 0.01, 0.3, false, forever, 7};
+  }
+  SUBCASE("it has left") {
+    told_instead = {227, 233, -1, -0.5, true, forever, 7};
+  }
+  SUBCASE("it leaves soon") {
+    told_instead = {227, 233, 0, 2, true, forever, 7};
+  }
+  driving_scene lie;
+  lie.crossings = {told_instead};
+  told_drive_of_scenes ahead;
+  ahead.know(seen_track({230, 0}));
+  ahead.own.lead = ahead.lead(227.5);
+  CHECK_FALSE(ahead.step(lie).refused);
+  CHECK(ahead.told.lead);
+  CHECK(ahead.go_on(3, lie));
+  told_drive_of_scenes beside;
+  beside.know(seen_track({230, -1.6}));
+  beside.own.beside = {{227.5, 232.5, -2.6, -0.6, 0, 0, 0}};
+  CHECK_FALSE(beside.step(lie).refused);
+  CHECK(beside.told.beside.size() == 1);
+  CHECK(beside.go_on(3, lie));
+}
+
+TEST_CASE("who is known ahead may be told to cross while it is there") {
+  told_drive_of_scenes x;
+  auto turns_off = seen_track({230, 0}, 1.57, 4);
+  x.know(turns_off);
+  x.own.lead = x.lead(229);
+  driving_scene told;
+  told.crossings = {{227, 233, 0, 0.9, true, forever, 7}};
+  x.tracks[0].at = x.now + 1h; // it is there at each look
+  CHECK_FALSE(x.go_on(3, told));
 }
 
 TEST_CASE("a body beside is told as wide as it is known") {
@@ -154,6 +256,91 @@ TEST_CASE("a body beside is told as wide as it is known") {
   const auto end = x.go_on(3, lie);
   REQUIRE(end);
   CHECK(end->first == "beside");
+}
+
+TEST_CASE("a body beside is told to drive as it does") {
+  told_drive_of_scenes x;
+  x.own.beside = {{227.5, 232.5, -2.6, -0.6, 0, 0, 0}};
+  auto lie = x.own;
+  lie.beside[0].speed_mps = 50;
+  CHECK_FALSE(x.step(lie).refused);
+  REQUIRE(x.told.beside.size() == 1);
+  CHECK(x.told.beside[0].speed_mps == 0);
+  const auto end = x.go_on(3, lie);
+  REQUIRE(end);
+  CHECK(end->first == "beside");
+}
+
+TEST_CASE("nobody is told more room beside a body than the vehicle knows of") {
+  told_drive_of_scenes x;
+  x.own.beside = {{227.5, 232.5, -2.6, -0.6, 0, 0, 0}};
+  auto lie = x.own;
+  SUBCASE("on the opposite lane") {
+    lie.beside[0].left_m = 8;
+  }
+  SUBCASE("on the opposite lane, for a body that it does not know") {
+    lie.beside.push_back({240, 245, -1, 1, 0, 0, 8});
+  }
+  SUBCASE("out of the lane") {
+    lie.beside[0].lacks_m = 3;
+  }
+  SUBCASE("behind its middle") {
+    lie.beside[0].to_m = 230;
+  }
+  CHECK_FALSE(x.step(lie).refused);
+  for (const auto& o : x.told.beside) {
+    CHECK(o.left_m == 0);
+    CHECK(o.lacks_m == 0);
+  }
+  CHECK(x.told.beside[0].to_m == 232.5);
+}
+
+TEST_CASE("a body that is being passed takes what is known of it") {
+  told_drive_of_scenes x;
+  x.own.beside = {{202, 207, -2.6, -0.6, 0, 0, 3.5}};
+  auto lie = x.own;
+  lie.beside[0].left_m = 0; // no way round it: left out of the plan
+  CHECK_FALSE(x.step(lie).refused);
+  CHECK(x.told.beside[0].left_m == 3.5);
+}
+
+TEST_CASE("a body is beside the way until the own rear is past it") {
+  told_drive_of_scenes x;
+  x.own.beside = {{197, 202, -1.6, 0.4, 0, 0, 3.5}};
+  CHECK_FALSE(x.step({}).refused);
+  CHECK(x.told.beside.size() == 1);
+}
+
+TEST_CASE("who crosses first is not told to brake for the own car") {
+  told_drive_of_scenes x;
+  x.own.crossings = {{220, 226, 0.5, 3, true, 4, 7}};
+  auto lie = x.own;
+  lie.crossings[0].brakes_mps2 = 0.1;
+  CHECK_FALSE(x.step(lie).refused);
+  CHECK(x.told.crossings[0].brakes_mps2 == 4);
+}
+
+TEST_CASE("a crowd that crosses elsewhere hides nobody who is known to cross") {
+  told_drive_of_scenes x;
+  x.own.crossings = {{230, 236, 2, 6, true, forever, 7}};
+  auto lie = x.own;
+  SUBCASE("far away") {
+    for (std::uint32_t k = 0; k < 4; ++k)
+      lie.crossings.push_back({500. + k, 501. + k, -1, 150, true, 9, 100 + k});
+  }
+  SUBCASE("before, and for a moment") {
+    lie.crossings.clear();
+    for (std::uint32_t k = 0; k < 20; ++k)
+      lie.crossings.push_back({209. + k, 210. + k, 0, 1, true, 9, 100});
+    lie.crossings.push_back(x.own.crossings[0]);
+  }
+  x.step(lie);
+  std::set<std::uint32_t> bodies;
+  for (const auto& c : x.told.crossings)
+    bodies.insert(c.body);
+  CHECK(bodies.contains(7));
+  CHECK(bodies.size() <= crossing_order::most_cars); // of a planner
+  CHECK(x.told.crossings.size() <= crossing_order::most_windows);
 }
 
 TEST_CASE("who crosses first is not told to cross later, or to give way") {

@@ -174,6 +174,27 @@ TEST_CASE("bodies that are told beside their places are added, and refused") {
   }
 }
 
+TEST_CASE("a body that is told beside its place is refused, whatever number it "
+          "is told by") {
+  told_drive_of_tracks x;
+  x.seen = {told_car(12, -2.2), told_car(30, 4)};
+  std::uint32_t number = 0;
+  const auto lie = [&] {
+    x.told = {{++number, told_car(12.9, -2.85)}, {++number, told_car(30, 4)}};
+  };
+  const auto end = x.go_on(4, lie);
+  REQUIRE(end);
+  CHECK(end->first == "shifted");
+  CHECK(x.besides == 1);
+}
+
+TEST_CASE("a body that is told twice, and once where it is, is believed") {
+  told_drive_of_tracks x;
+  x.seen = {told_car(12, -2.2)};
+  x.told = {{1, told_car(12.9, -2.85)}, {2, told_car(12, -2.2)}};
+  CHECK_FALSE(x.go_on(4));
+}
+
 TEST_CASE("a body that is told to drive on while it stands is added, and "
           "refused") {
   told_drive_of_tracks x;
@@ -217,6 +238,35 @@ TEST_CASE("a body that no road user is, or that jumps, is refused wherever it "
     });
     REQUIRE(end);
     CHECK(end->first == "jump");
+  }
+}
+
+TEST_CASE("a body that jumps is refused, whatever number it is told by") {
+  told_drive_of_tracks x;
+  std::uint32_t number = 0;
+  auto side_m = 20.0;
+  const auto end = x.go_on(3, [&] {
+    side_m = -side_m;
+    x.told = {{++number, told_car(40, side_m)}};
+  });
+  REQUIRE(end);
+  CHECK(end->first == "jump");
+}
+
+TEST_CASE("who is told by another number where it is, or comes as another one "
+          "goes, is believed") {
+  told_drive_of_tracks x;
+  std::uint32_t number = 0;
+  SUBCASE("where it is") {
+    CHECK_FALSE(x.go_on(3, [&] {
+      x.told = {{++number, told_car(40, 20, 0)}};
+    }));
+  }
+  SUBCASE("one comes, one goes") {
+    x.told = {{1, told_car(40, 20)}};
+    CHECK_FALSE(x.go_on(1));
+    x.told = {{2, told_car(40, -20)}};
+    CHECK_FALSE(x.go_on(1));
   }
 }
 

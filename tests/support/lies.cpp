@@ -300,11 +300,11 @@ int drive(lie what, std::uint64_t seed, bool traffic, int seconds) {
   return 0;
 }
 
-/// Lets a car stand in the way of the first ones, in the middle of their lane
-/// or with room to pass it: who is not told of it, or elsewhere, drives into
-/// it.
-void put_in_the_way(scenario_definition& s, std::uint64_t seed) {
-  constexpr double ahead_m = 120, to_right_m = 1.6, clear_m = 12;
+/// Lets a car stand in the way of the first ones: who is not told of it, or
+/// elsewhere, drives into it.
+/// @param to_right_m  Of the middle of their lane.
+void put_in_the_way(scenario_definition& s, double to_right_m) {
+  constexpr double ahead_m = 120, clear_m = 12;
   const auto placed = place_vehicles(s);
   const auto& first = placed.front();
   const auto& path = first.way->path();
@@ -317,7 +317,7 @@ void put_in_the_way(scenario_definition& s, std::uint64_t seed) {
     if (std::ranges::any_of(placed, is_near))
       continue;
     s.obstacles.push_back(
-        {.position_m = here.at + (seed % 2 == 0 ? -to_right_m : 0.0) * left,
+        {.position_m = here.at + -to_right_m * left,
          .heading_deg = here.heading_rad * 180 / std::numbers::pi});
     return;
   }
@@ -327,7 +327,9 @@ void put_in_the_way(scenario_definition& s, std::uint64_t seed) {
 int drive_chain(std::string_view what, std::string_view offered,
                 std::uint64_t seed, int seconds) {
   auto s = scene(seed, true, seconds, "always", whole_chain(offered));
-  put_in_the_way(s, seed);
+  // In the middle, or where it leaves hardly room enough, or room to pass it.
+  const auto hardly_m = seed % 2 == 0 ? 1.6 : 0.0;
+  put_in_the_way(s, what == "scene_beside_fast" ? 1.8 : hardly_m);
   const auto of_plans = lie_of(what);
   const auto of_chain = chain_lie_of(what);
   for (auto& kind : s.services)
