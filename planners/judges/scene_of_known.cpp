@@ -79,7 +79,7 @@ double scene_judge::gone_s(const own_knowledge& x, double at_m,
     const auto left_mps = now.speed_along_mps(way_rad + std::numbers::pi / 2);
     const auto aside_m = left_mps > 0 ? limits.corridor_m - foot->low_m
                                       : limits.corridor_m + foot->high_m;
-    const auto aside_s = aside_m / std::abs(left_mps);
+    const auto aside_s = left_mps == 0 ? forever : aside_m / std::abs(left_mps);
     const auto along_s =
         foot->speed_mps > 0 ? (to_m - foot->from_m) / foot->speed_mps : forever;
     last_s = std::max(last_s, std::min(aside_s, along_s));
