@@ -95,6 +95,7 @@ void provider::expire(const station_check& x, time_point now) {
   if (i == stations_.end() || i->second.number != x.record)
     return;
   const auto deadline = i->second.heard + protocol::cam_timeout + duration{1};
+  assert(i->second.heard <= now);
   if (now >= deadline)
     forget(
         i,
@@ -184,6 +185,7 @@ void provider::locate(station_record& station, time_point now) {
     return;
   }
   const auto all = station.sessions;
+  assert(!station.is_inside);
   for (const auto& x : all)
     if (x.was_inside)
       end(station, x.session,

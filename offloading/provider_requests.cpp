@@ -213,8 +213,10 @@ provider::links_of(station_id station, std::string_view service,
                : link_place::elsewhere;
   };
   policies::chain_links links;
-  if (const auto& name = find(messages::service_name{service})->follows;
-      !name.view().empty())
+  const auto* offered = find(messages::service_name{service});
+  assert(offered);
+  assert(offered->follows.view() != service);
+  if (const auto& name = offered->follows; !name.view().empty())
     links.follows = {name.view(), place_of(name)};
   for (const auto& x : setup_.services)
     if (x.follows.view() == service)

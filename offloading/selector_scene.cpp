@@ -16,6 +16,7 @@ void source_selector::look_at_scene(time_point now) {
   assert(found->longest >= duration{0});
   if (options().latency_by_scene)
     limit_by_scene(found->longest, now);
+  assert(!found->because.empty());
   port_.report_safe_response(found->longest);
   messages::scene_record seen{.at = now,
                               .station = setup_.station,

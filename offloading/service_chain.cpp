@@ -53,6 +53,7 @@ duration worst_response_of(std::span<const service_state* const> chain,
 
 std::optional<duration>
 safe_response_of(std::span<const service_state* const> chain, time_point now) {
+  assert(!chain.empty());
   std::optional<duration> least;
   auto looks = false;
   for (const auto* x : chain) {
@@ -60,6 +61,7 @@ safe_response_of(std::span<const service_state* const> chain, time_point now) {
       least = least ? std::min(*least, *found) : found;
     looks = looks || x->service.own->looks_at_scenes();
   }
+  assert(!least || *least >= duration{0});
   return least || !looks ? least : duration{0};
 }
 

@@ -93,6 +93,7 @@ bool source_selector::is_standby(const source& x) const {
 void source_selector::on_input(const messages::service_input& input,
                                time_point now) {
   pass(now);
+  assert(work_since_ <= now);
   trace_.add(step::asked,
              messages::session_id{0, setup_.station, setup_.service.name, 0},
              now);

@@ -120,7 +120,9 @@ std::string_view scene_judge::hold_to_lead(const own_knowledge& x,
   if (!own || own->rear_s_m >= matters_to_m(x))
     return check;
   const auto off_m = limits.along_m + limits.for_speed_s * own->speed_mps;
+  assert(std::isfinite(off_m));
   const auto from_m = std::min(front_m(x), own->rear_s_m - off_m);
+  assert(from_m <= front_m(x));
   if (told.lead && told.lead->rear_s_m > from_m
       && told.lead->rear_s_m <= own->rear_s_m + off_m) {
     if (told.lead->speed_mps > own->speed_mps + limits.faster_mps)
@@ -254,6 +256,7 @@ bool scene_judge::is_crowded(std::span<const crossing_user> users) {
   if (users.size() <= limits.most_minded)
     return false;
   std::size_t bodies = 0, places = 0;
+  assert(limits.most_minded <= limits.most_places);
   for (std::size_t k = 0; k < users.size(); ++k) {
     const auto before = users.first(k);
     places += users[k].goes_first;
@@ -262,6 +265,7 @@ bool scene_judge::is_crowded(std::span<const crossing_user> users) {
                    return y.goes_first && y.body == users[k].body;
                  });
   }
+  assert(bodies <= places);
   return bodies > limits.most_minded || places > limits.most_places;
 }
 
