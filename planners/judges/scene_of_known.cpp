@@ -19,6 +19,12 @@ namespace {
 
 constexpr auto forever = std::numeric_limits<double>::infinity();
 
+/// @returns how badly two fit who may be one, m and s.
+double apart(const crossing_user& a, const crossing_user& b) {
+  return std::abs(a.from_m - b.from_m) + std::abs(a.to_m - b.to_m)
+         + std::abs(a.enter_s - b.enter_s);
+}
+
 } // namespace
 
 /// @returns whether the bodies that stand where a lead is known are told to be
@@ -291,14 +297,21 @@ std::string_view scene_judge::hold_to_crossings(const own_knowledge& x,
     if (!matters(x, own))
       continue;
     any = true;
-    auto is_told = false;
+    crossing_user* same = nullptr; // of all who may be this one
     for (std::size_t k = 0; k < count; ++k)
       if (auto& c = told.crossings[k]; crosses_like(own, c)) {
         c.brakes_mps2 = std::max(c.brakes_mps2, own.brakes_mps2);
-        is_told = true;
+        if (!same || apart(own, c) < apart(own, *same))
+          same = &c;
       }
-    if (is_told)
+    if (same) {
+      same->from_m = std::min(same->from_m, own.from_m);
+      same->to_m = std::max(same->to_m, own.to_m);
+      same->enter_s = std::min(same->enter_s, own.enter_s);
+      if (std::isfinite(own.leave_s))
+        same->leave_s = std::max(same->leave_s, own.leave_s);
       continue;
+    }
     told.crossings.push_back(own);
     check = "crossing";
   }

@@ -320,6 +320,20 @@ TEST_CASE("who crosses first is not told to brake for the own car") {
   CHECK(x.told.crossings[0].brakes_mps2 == 4);
 }
 
+TEST_CASE("who crosses first is told to be where it is, for as long") {
+  told_drive_of_scenes x;
+  x.own.crossings = {{220, 226, 1, 3, true, forever, 7}};
+  auto lie = x.own;
+  lie.crossings[0] = {225, 225, 2, 2.1, true, forever, 7};
+  CHECK_FALSE(x.step(lie).refused);
+  REQUIRE(x.told.crossings.size() == 1);
+  const auto& used = x.told.crossings[0];
+  CHECK(used.from_m == 220);
+  CHECK(used.to_m == 226);
+  CHECK(used.enter_s == 1);
+  CHECK(used.leave_s == 3);
+}
+
 TEST_CASE("a crowd that crosses elsewhere hides nobody who is known to cross") {
   told_drive_of_scenes x;
   x.own.crossings = {{230, 236, 2, 6, true, forever, 7}};
