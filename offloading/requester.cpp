@@ -157,8 +157,10 @@ void requester::on_safe_response(const messages::service_name& service,
                                  duration longest, time_point now) {
   pass(now);
   assert(longest >= duration{0});
-  if (auto* known = find(service))
+  if (auto* known = find(service)) {
     known->scene = {now, longest};
+    stop_unsafe_starts(now);
+  }
 }
 
 // A list of bounded length, whatever an offer says.

@@ -236,6 +236,7 @@ private:
   leave(service_state& service, const ending& why, time_point now,
         const std::function<bool(provider_id)>& is_meant);
   void leave_unwanted(service_state& service, time_point now);
+  void stop_unsafe_starts(time_point now);
   void leave_beside(service_state& service, provider_id violator,
                     std::string_view why, time_point now);
   void end(service_state& service, provider_id provider, const ending& why,

@@ -1,9 +1,12 @@
 // What a requester knows of services that form a chain, and how late the
 // vehicle will respond to what it sees when they run elsewhere.
+#include "base/reason.hpp"
 #include "offloading/requester.hpp"
+#include "offloading/service_chain.hpp"
 
 #include <cassert>
 #include <utility>
+#include <vector>
 
 namespace sofof::offloading {
 
@@ -90,6 +93,33 @@ void requester::predict_response(time_point now) {
   found.p99 = *law.quantile(0.99);
   assert(found.p50 <= found.p99);
   port_.record(std::move(found));
+}
+
+// No policy is asked while a source starts, and meanwhile the scene may become
+// unsafe under the time of the split that this would make.
+void requester::stop_unsafe_starts(time_point now) {
+  if (!setup_.policy->needs_scene())
+    return;
+  for (auto& service : services_) {
+    if (!service.is_moving())
+      continue;
+    const auto all = chain_of(services_, service);
+    const auto safe = safe_response_of(all, now);
+    const auto worst = worst_response_of(all, service);
+    if (!safe || worst <= *safe)
+      continue;
+    std::vector<provider_id> starting;
+    for (const auto& x : service.sessions)
+      if (x.at == phase::starting)
+        starting.push_back(x.provider);
+    for (const auto id : starting)
+      end(service, id,
+          {messages::end_reason::released,
+           in_words("safe_response", *safe, worst)},
+          true, now);
+    assert(starting.empty() || !service.find(starting.front()));
+  }
+  assert(is_consistent());
 }
 
 } // namespace sofof::offloading

@@ -67,6 +67,7 @@ void requester::on_response(const messages::service_response& response,
   }
   if (expected)
     refuse_requested(response.provider, "not answered", now);
+  stop_unsafe_starts(now);
   assert(is_consistent());
 }
 

@@ -265,16 +265,17 @@ void requester_rules::on_digest(const step& x) {
   }
 }
 
-// A decision may come at an epoch of the policy, which is no step; but it ends
-// only what is in use. Results that came late for use are no step either: they
-// may have confirmed a session, but never make it end.
+// A decision may come at an epoch of the policy, which is no step, and end what
+// is in use; what starts ends when the scene is not safe under it any more,
+// which is no step either. Results that came late for use are no step either:
+// they may have confirmed a session, but never make it end.
 bool requester_rules::may_close(const step& x, const session& known) const {
   if (is_for(x, end_reason::no_data)
       && ((!known.is_remote && x.at >= known.begun + protocol::start_timeout)
           || x.at >= known.confirmed + protocol::confirmation_timeout))
     return true;
   if (is_for(x, end_reason::released))
-    return known.is_remote;
+    return true;
   if (is_for(x, end_reason::handed_over))
     return known.is_remote
            && std::ranges::any_of(providers_, [&](const auto& other) {

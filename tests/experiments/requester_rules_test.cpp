@@ -317,7 +317,8 @@ TEST_CASE("a session ends for the reason that its instant gives") {
   CHECK(ends(end_got, "revoked", "left_area") == rules{"V20"});
   CHECK(ends(peer_lost, "", "peer_lost").empty());
   CHECK(ends(peer_lost, "", "no_data") == rules{"V20"});
-  CHECK(ends(offer_got, "", "released") == rules{"V20"}); // without data
+  CHECK(ends(offer_got, "", "handed_over") == rules{"V20"}); // without data
+  CHECK(ends(offer_got, "", "released").empty()); // its start is given up
 }
 
 TEST_CASE_FIXTURE(running_vehicle, "a session that shuts down with its vehicle "

@@ -35,6 +35,15 @@ TEST_CASE("in scenes that start safe nobody is hit, no service leaves when the "
   CHECK(found.remote_s > found.driven_s / 4);
 }
 
+TEST_CASE(
+    "who finds the scene unsafe while a provider starts does not wait for "
+    "it") {
+  for (const std::uint64_t seed : {3867, 5328}) {
+    CAPTURE(seed);
+    CHECK(drive_scene(seed, {}).entered == 0);
+  }
+}
+
 TEST_CASE("so it is for a chain, of which a provider takes what the scene "
           "leaves time for") {
   const auto found = driven({.is_chain = true}, 8);
