@@ -123,10 +123,14 @@ std::string_view scene_judge::hold_to_lead(const own_knowledge& x,
     check = "lead";
   }
   const auto& own = x.scene.lead;
+  const auto off_m =
+      limits.along_m + limits.for_speed_s * (own ? own->speed_mps : 0);
+  assert(std::isfinite(off_m));
+  // Of another one the vehicle has heard no drive: it may stand.
+  if (!own || !told.lead || told.lead->rear_s_m < own->rear_s_m - off_m)
+    told.lead_told.clear();
   if (!own || own->rear_s_m >= matters_to_m(x))
     return check;
-  const auto off_m = limits.along_m + limits.for_speed_s * own->speed_mps;
-  assert(std::isfinite(off_m));
   const auto from_m = std::min(front_m(x), own->rear_s_m - off_m);
   assert(from_m <= front_m(x));
   if (told.lead && told.lead->rear_s_m > from_m
@@ -135,8 +139,6 @@ std::string_view scene_judge::hold_to_lead(const own_knowledge& x,
       check = "lead";
     if (told.lead->rear_s_m > own->rear_s_m - off_m)
       told.lead_told = x.scene.lead_told;
-    else
-      told.lead_told.clear();
     if (told.lead->speed_mps > own->speed_mps) {
       told.lead->speed_mps = own->speed_mps;
       told.lead->accel_mps2 = std::min(told.lead->accel_mps2, own->accel_mps2);

@@ -167,6 +167,24 @@ TEST_CASE("how a known lead is going to drive, only itself tells") {
   CHECK(x.told.lead_told.size() == x.own.lead_told.size());
 }
 
+TEST_CASE(
+    "a body that the vehicle knows to be beside its way, and that is told to "
+    "lead, is not told to drive off") {
+  told_drive_of_scenes x;
+  x.know(seen_track({230, 1.6}));
+  x.own.beside = {{227.5, 232.5, 0.7, 2.5, 0, 0, 0}};
+  driving_scene lie;
+  lie.lead = x.lead(227.5);
+  lie.lead_told = {{227.5, 0}};
+  SUBCASE("whom nobody leads") {}
+  SUBCASE("whom somebody leads far ahead") {
+    x.own.lead = x.lead(300, 10);
+  }
+  CHECK_FALSE(x.step(lie).refused);
+  REQUIRE(x.told.lead);
+  CHECK(x.told.lead_told.empty());
+}
+
 TEST_CASE("who is told to lead before a body beside the way, faster or from "
           "behind, hides it from nobody") {
   told_drive_of_scenes x;
