@@ -47,29 +47,11 @@ tracks = false
 )";
 
 /// The same town, and the other services of a chain.
-constexpr std::string_view chained = R"(duration = "30s"
-[street_grid]
-columns = 2
-rows = 2
-[[fleet]]
-routes = ["block *"]
-[[provider]]
-area_radius_m = 500.0
-[[service]]
-name = "tracking"
-[[service]]
-name = "environment_model"
-[[service]]
-name = "trajectory_planning"
-input_period = "50ms"
-[service.planner]
-name = "lane_follow"
-[policies]
-lodm = "always"
-codm = "always"
-[record]
-tracks = false
-)";
+std::string chained() {
+  return std::string{plain}
+         + "[[service]]\nname = \"tracking\"\n"
+           "[[service]]\nname = \"environment_model\"\n";
+}
 
 verdict some_verdict() {
   verdict v;
@@ -148,7 +130,7 @@ TEST_CASE("a provider that lies about tracks or scenes is found out, and no "
 
 TEST_CASE("a provider that lies about plans that a chain makes is found out") {
   const test::scratch at;
-  const auto v = try_here({std::string{chained} + R"([lies]
+  const auto v = try_here({chained() + R"([lies]
 what = "jump"
 after = "3s"
 )"},
@@ -159,7 +141,7 @@ after = "3s"
 
 TEST_CASE("how long each part of a chain was offloaded is counted") {
   const test::scratch at;
-  const auto all = try_here({std::string{chained}}, at / "all");
+  const auto all = try_here({chained()}, at / "all");
   CHECK(all.is_good());
   CHECK(all.counts[counted::chain_s] == all.counts[counted::driven_s]);
   CHECK(all.counts[counted::tracking_s] > 20);
@@ -171,7 +153,7 @@ TEST_CASE("how long each part of a chain was offloaded is counted") {
 
 TEST_CASE("a service of a chain that gives nothing for seconds is found") {
   const test::scratch at;
-  const auto loaded = load({std::string{chained}});
+  const auto loaded = load({chained()});
   run(loaded, at / "run");
   const auto breaks = [&] {
     broken_promises all;
