@@ -7,10 +7,10 @@
 
 namespace sofof::offloading {
 
-std::string in_words(std::string_view limit, duration value, duration most) {
-  assert(value >= most || value < duration{0});
-  return fmt::format("{} value_ms={:.6f} limit_ms={:.6f}", limit,
-                     1e3 * to_seconds(value), 1e3 * to_seconds(most));
+std::string in_words(std::string_view name, duration value, duration limit) {
+  assert(!name.empty());
+  return fmt::format("{} value_ms={:.6f} limit_ms={:.6f}", name,
+                     1e3 * to_seconds(value), 1e3 * to_seconds(limit));
 }
 
 } // namespace sofof::offloading

@@ -17,11 +17,12 @@ constexpr bool in_time(time_point since, time_point received,
   return since <= received && received - since <= longest;
 }
 
-/// @param limit  Its name.
-/// @param value  At least `most`, or negative.
-/// @returns how an event tells that it was reached or exceeded:
+/// @param name   The limit's: "latency".
+/// @param value  What was found: a time too long for the limit, or what a
+/// scene allows, of which the limit is more.
+/// @returns how an event tells that a limit did not hold:
 /// "latency value_ms=61.200000 limit_ms=50.000000".
-std::string in_words(std::string_view limit, duration value, duration most);
+std::string in_words(std::string_view name, duration value, duration limit);
 
 /// Watches the gaps between received results.
 class gap_monitor {
