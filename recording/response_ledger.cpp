@@ -46,21 +46,17 @@ response_ledger::response_ledger(const std::vector<std::string>& chain) {
     chain_.emplace_back(name);
 }
 
-void response_ledger::add(const messages::look_record& x) {
-  if (chain_.empty())
-    return;
-  auto& looks = cars_[x.station].looks;
-  looks.push_back(x);
-  while (looks.front().sensed_at < x.sensed_at - kept_for)
-    looks.pop_front(); // no plan has come of it for so long
-}
-
 void response_ledger::add(const messages::stage_record& x,
                           std::vector<messages::response_record>& out) {
   const auto place = std::ranges::find(chain_, x.service);
   if (place == chain_.end())
     return;
   auto& car = cars_[x.station];
+  for (const auto& look : x.looks) {
+    car.looks.push_back(look);
+    while (car.looks.front().sensed_at < look.sensed_at - messages::look_lasts)
+      car.looks.pop_front();
+  }
   car.results.resize(chain_.size());
   car.results[static_cast<std::size_t>(place - chain_.begin())].push_back(x);
   follow_until(x.got - all_known_after, x.station, car, out);
@@ -95,7 +91,7 @@ response_ledger::back_from(const car& x, const messages::stage_record& plan) {
     auto& last = found.steps.emplace_back(step{k, at});
     if (k == 0) {
       const auto look = std::ranges::find(x.looks, at->timing.input_at,
-                                          &messages::look_record::input_at);
+                                          &messages::sensor_look::input_at);
       found.look = look == x.looks.end() ? nullptr : &*look;
       break;
     }

@@ -23,7 +23,6 @@ public:
   ///               it does all; none, and nothing is followed.
   explicit response_ledger(const std::vector<std::string>& chain);
 
-  void add(const messages::look_record& x);
   /// @param out  Gets what is known by now.
   void add(const messages::stage_record& x,
            std::vector<messages::response_record>& out);
@@ -32,7 +31,7 @@ public:
 
 private:
   struct car {
-    std::deque<messages::look_record> looks;
+    std::deque<messages::sensor_look> looks;
     std::vector<std::deque<messages::stage_record>> results; // by service
     std::optional<time_point> answered; // the newest look that was
   };
@@ -43,7 +42,7 @@ private:
     bool asks_there = false; ///< It got the one before at its provider.
   };
   struct way {
-    const messages::look_record* look = nullptr;
+    const messages::sensor_look* look = nullptr;
     std::vector<step> steps; ///< From the plan back.
   };
 

@@ -66,7 +66,6 @@ private:
   void keep(const messages::record& x);
   template <class Record>
   void follow(const Record&) {}
-  void follow(const messages::look_record& x) { ledger_.add(x); }
   void follow(const messages::stage_record& x);
 
   run_info run_;

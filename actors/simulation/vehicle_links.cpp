@@ -79,8 +79,11 @@ void vehicle_links::join_stages() {
 }
 
 void vehicle_links::ask(messages::service_input input, time_point sensed_at) {
-  send_record(self_, setup_.recorder,
-              messages::look_record{setup_.car.station, sensed_at, input.at});
+  // Older ones are answered no more: there was no plan for so long.
+  std::erase_if(looks_, [=](const messages::sensor_look& x) {
+    return x.sensed_at < sensed_at - messages::look_lasts;
+  });
+  looks_.push_back({sensed_at, input.at});
   self_->send(first_, std::move(input));
 }
 
@@ -94,7 +97,8 @@ void vehicle_links::go_by(const received_plan& next,
     send_record(self_, setup_.recorder,
                 messages::stage_record{setup_.car.station, from.session.service,
                                        from.session.provider, t, from.timing,
-                                       car.at() + protocol::control_period});
+                                       car.at() + protocol::control_period,
+                                       std::exchange(looks_, {})});
 }
 
 void vehicle_links::log_event(messages::event_type what) {

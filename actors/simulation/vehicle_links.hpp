@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace sofof::actors {
 
@@ -80,7 +81,8 @@ private:
   messages::crossing_driver_actor agent_;
   messages::requester_manager_actor planner_;
   std::map<std::uint32_t, messages::chain_stage_actor> stages_;
-  messages::input_actor first_; // of these
+  messages::input_actor first_;              // of these
+  std::vector<messages::sensor_look> looks_; // since the last plan
 };
 
 } // namespace sofof::actors

@@ -10,6 +10,7 @@
 #include "world/vehicle/ride_comfort.hpp"
 #include "world/vehicle/trip.hpp"
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -169,11 +170,13 @@ struct scene_record {
 };
 
 /// What a vehicle has seen goes into its chain of services.
-struct look_record {
-  station_id station = 0;
+struct sensor_look {
   time_point sensed_at; ///< The sensing instant.
   time_point input_at;  ///< When the input of the first service was made.
 };
+
+/// A look from which no plan has come for so long counts no more.
+inline constexpr duration look_lasts = std::chrono::seconds{5};
 
 /// A result of a service of a chain has come to who uses it.
 struct stage_record {
@@ -184,6 +187,8 @@ struct stage_record {
   result_timing timing;
   /// Of the last service: when the first control value depends on it.
   std::optional<time_point> control_at{};
+  /// Of the last service: all since its result before.
+  std::vector<sensor_look> looks{};
 
   /// @returns when its cycle began.
   time_point begun() const {
@@ -248,7 +253,7 @@ using record =
     std::variant<event_record, decision_record, cycle_record, work_record,
                  episode_record, track_record, safety_record, collision_record,
                  drive_record, trip_record, claim_record, scene_record,
-                 look_record, stage_record, response_record, prediction_record,
+                 stage_record, response_record, prediction_record,
                  plan_switch_record, air_record, trace_record>;
 
 /// Gets the records of a run; implemented by whoever keeps them.

@@ -19,7 +19,7 @@ struct letters final : record_sink {
   std::vector<station_id> tracks;
 
   void on_record(const record& x) override {
-    all += "edyoptscrnmvlgqfwa"[x.index()];
+    all += "edyoptscrnmvgqfwa"[x.index()];
     if (const auto* track = std::get_if<track_record>(&x))
       tracks.push_back(track->ego.own.station);
   }
@@ -42,13 +42,12 @@ TEST_CASE_FIXTURE(virtual_world, "every kind of record reaches the sink") {
   tell(recorder, record{trip_record{}});
   tell(recorder, record{claim_record{}});
   tell(recorder, record{scene_record{}});
-  tell(recorder, record{look_record{}});
   tell(recorder, record{stage_record{}});
   tell(recorder, record{response_record{}});
   tell(recorder, record{prediction_record{}});
   tell(recorder, record{plan_switch_record{}});
   tell(recorder, record{air_record{}});
-  CHECK(sink->all == "edyoptscrnmvlgqfwa");
+  CHECK(sink->all == "edyoptscrnmvgqfwa");
 }
 
 TEST_CASE_FIXTURE(virtual_world, "records keep their order and content") {

@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sofof::made_up {
@@ -26,10 +27,9 @@ const std::vector<std::string> chain{"tracking", "environment_model",
 struct told_chain {
   response_ledger ledger{chain};
   std::vector<response_record> known{};
+  std::vector<sensor_look> looks{}; // since the last plan
 
-  void look(int sensed, int input) {
-    ledger.add(look_record{101, ms(sensed), ms(input)});
-  }
+  void look(int sensed, int input) { looks.push_back({ms(sensed), ms(input)}); }
   /// A result of an input of that moment that came now, of which `down` took
   /// the way and `computing` the computing.
   void result(std::size_t service, provider_id by, int input, int now,
@@ -38,8 +38,10 @@ struct told_chain {
     x.timing.input_at = ms(input);
     x.timing.down.travel = down * 1ms;
     x.timing.computing = computing * 1ms;
-    if (service == 2)
+    if (service == 2) {
       x.control_at = ms(now + 4);
+      x.looks = std::exchange(looks, {});
+    }
     ledger.add(x, known);
   }
   std::vector<response_record> all() {
@@ -127,13 +129,14 @@ TEST_CASE("responses are lines of responses.csv and figures of their split, "
   info.chain = chain;
   {
     results r{dir.path(), info};
-    r.on_record(look_record{101, at(5s), at(5s)});
     const auto stage = [&](std::size_t k, provider_id by, duration input,
                            duration got) {
       stage_record s{101, service_name{chain[k]}, by, at(got), {}};
       s.timing.input_at = at(input);
-      if (k == 2)
+      if (k == 2) {
         s.control_at = at(got + 5ms);
+        s.looks = {{at(5s), at(5s)}};
+      }
       r.on_record(s);
     };
     stage(0, 0, 5s, 5s + 2ms);
@@ -159,8 +162,8 @@ TEST_CASE("who wants no lines of results gets none of responses, but figures") {
   info.chain = {planning};
   info.cycles = false;
   results r{dir.path(), info};
-  r.on_record(look_record{101, at(5s), at(5s)});
   stage_record plan{101, planning, 0, at(5s + 20ms), {}};
+  plan.looks = {{at(5s), at(5s)}};
   plan.timing.input_at = at(5s);
   plan.control_at = at(5s + 30ms);
   r.on_record(plan);
@@ -173,9 +176,8 @@ TEST_CASE("who wants no lines of results gets none of responses, but figures") {
 TEST_CASE("planning that does all by itself is measured as a chain of one") {
   response_ledger ledger{{planning}};
   std::vector<response_record> all;
-  ledger.add(look_record{101, at(4s), at(4s)});
-  ledger.add(look_record{101, at(4s + 50ms), at(4s + 50ms)});
   stage_record plan{101, planning, provider, at(4s + 83ms), {}};
+  plan.looks = {{at(4s), at(4s)}, {at(4s + 50ms), at(4s + 50ms)}};
   plan.timing.input_at = at(4s + 50ms);
   plan.timing.up.travel = 5ms;
   plan.timing.down.travel = 3ms;

@@ -21,7 +21,6 @@ struct memory_sink final : messages::record_sink {
   std::vector<messages::trip_record> trips;
   std::vector<messages::claim_record> claims;
   std::vector<messages::scene_record> scenes;
-  std::vector<messages::look_record> looks;
   std::vector<messages::stage_record> stages;
   std::vector<messages::response_record> responses;
   std::vector<messages::prediction_record> predictions;
@@ -50,7 +49,6 @@ struct memory_sink final : messages::record_sink {
             [this](const messages::trip_record& r) { trips.push_back(r); },
             [this](const messages::claim_record& r) { claims.push_back(r); },
             [this](const messages::scene_record& r) { scenes.push_back(r); },
-            [this](const messages::look_record& r) { looks.push_back(r); },
             [this](const messages::stage_record& r) { stages.push_back(r); },
             [this](const messages::response_record& r) {
               responses.push_back(r);
