@@ -29,8 +29,14 @@ v2x_broadcast::v2x_broadcast(const messages::v2x_options& options,
                              const world::sensor_params& sensor,
                              messages::georeference_ptr where)
     : options_{options}, car_{car}, sensor_{sensor}, where_{std::move(where)},
-      cam_due_{options.cam_rule()}, cpm_due_{options.cpm_rule()},
-      model_{planners::noise_of(sensor)} {}
+      cam_due_{options.cam_rule()} {
+  if (options.sends_cpms())
+    seen_ = std::make_unique<seen_bodies>(
+        seen_bodies{messages::cpm_trigger{options.cpm_rule()},
+                    planners::object_tracker{planners::noise_of(sensor)},
+                    {},
+                    {}});
+}
 
 std::optional<messages::its_pdu>
 v2x_broadcast::awareness(const messages::cam& own) {
@@ -47,21 +53,22 @@ v2x_broadcast::awareness(const messages::cam& own) {
 std::optional<messages::its_pdu>
 v2x_broadcast::perceived(const messages::cam& own,
                          const world::perception& seen) {
-  if (!options_.sends_cpms())
+  if (!seen_)
     return std::nullopt;
-  model_.update(seen.at, seen.objects);
-  known_.clear();
-  for (const auto& x : model_.tracks())
+  auto& [cpm_due, model, known, told] = *seen_;
+  model.update(seen.at, seen.objects);
+  known.clear();
+  for (const auto& x : model.tracks())
     if (x.seen == seen.at // not those that are only remembered
         && own.at - seen.at <= oldest_sight)
-      known_.push_back({x.id, object_of(x)});
-  const auto due = cpm_due_.check(own.at, known_);
+      known.push_back({x.id, object_of(x)});
+  const auto due = cpm_due.check(own.at, known);
   if (!due.send)
     return std::nullopt;
-  told_.clear();
+  told.clear();
   for (const auto i : due.objects)
-    told_.push_back(known_[i]);
-  const messages::perceived_scene scene{own, seen.at, told_, known_.size(),
+    told.push_back(known[i]);
+  const messages::perceived_scene scene{own, seen.at, told, known.size(),
                                         due.sensor_information ? &sensor_
                                                                : nullptr};
   return options_.is_release_2()

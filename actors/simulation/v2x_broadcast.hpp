@@ -13,6 +13,7 @@
 #include "world/sensing/sensors.hpp"
 #include "world/vehicle/vehicle.hpp"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -44,10 +45,14 @@ private:
   world::sensor_params sensor_;
   messages::georeference_ptr where_;
   messages::cam_trigger cam_due_;
-  messages::cpm_trigger cpm_due_;
   messages::path_history been_;
-  planners::object_tracker model_;
-  std::vector<messages::known_object> known_, told_; // one after the other
+  /// What CPMs are made of.
+  struct seen_bodies {
+    messages::cpm_trigger due;
+    planners::object_tracker model;
+    std::vector<messages::known_object> known, told; // one after the other
+  };
+  std::unique_ptr<seen_bodies> seen_; // null where none are sent
 };
 
 } // namespace sofof::actors

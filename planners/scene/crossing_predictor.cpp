@@ -17,9 +17,6 @@ namespace {
 /// would have to brake so hard and has not begun to.
 constexpr auto yielding_decel_mps2 = 6.0, begins_by_mps2 = 3.0;
 
-/// To be expected at once; more take more memory, once.
-constexpr std::size_t many = 128;
-
 double forward_mps(const track& x) {
   return std::max(0.0, x.speed_mps());
 }
@@ -84,9 +81,6 @@ crossing_predictor::crossing_predictor(
     : lanes_{std::move(lanes)}, way_{std::move(way), lanes_->meetings()},
       corridor_m_{corridor_m}, foresight_s_{foresight_s} {
   assert(corridor_m_ > 0 && foresight_s_ >= 0);
-  zones_.reserve(many);
-  arrivals_.reserve(many);
-  foreseen_.reserve(many);
 }
 
 void crossing_predictor::look_ahead(double rear_m, double front_m, double to_m,

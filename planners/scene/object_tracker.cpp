@@ -30,8 +30,6 @@ constexpr auto gate = 33.38;
 /// Bodies at one time; who was not seen for longest makes room for more. A
 /// provider hears far more than a vehicle sees.
 constexpr std::size_t max_tracks = 1024;
-/// There is room for as many without heap.
-constexpr std::size_t usual_tracks = 128;
 
 /// Of a new value in the low-passed ones, where values come at 10 Hz or more
 /// often; all of one that comes after twice as long.
@@ -88,12 +86,7 @@ duration sighting_rhythm::silence(double speed_mps) const {
 }
 
 object_tracker::object_tracker(sighting_noise noise, sighting_rhythm rhythm)
-    : noise_{noise}, rhythm_{rhythm} {
-  tracks_.reserve(usual_tracks);
-  sightings_.reserve(usual_tracks);
-  pairs_.reserve(4 * usual_tracks);
-  is_taken_.reserve(usual_tracks);
-}
+    : noise_{noise}, rhythm_{rhythm} {}
 
 void object_tracker::update(time_point at,
                             std::span<const world::perceived_object> seen,

@@ -45,9 +45,6 @@ constexpr auto steers_round_m = 0.1;
 
 constexpr auto infinity = std::numeric_limits<double>::infinity();
 
-/// To be expected at once; more take more memory, once.
-constexpr std::size_t usual_cars = 128;
-
 double radius_m(const track& x) {
   return 0.5 * std::sqrt(x.length_m * x.length_m + x.width_m * x.width_m);
 }
@@ -94,8 +91,6 @@ scene_interpreter::scene_interpreter(std::shared_ptr<const lane_network> lanes,
     half_lane_m_ =
         std::max(half_lane_m_, way->half_width_m(way->start_of_m(i)));
   assert(!beads_.empty() && half_lane_m_ > 0);
-  others_.reserve(usual_cars);
-  near_.reserve(usual_cars);
 }
 
 void scene_interpreter::describe(time_point now, const own_place& me,
