@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstddef>
+#include <span>
 
 namespace sofof::planners::ocp {
 
@@ -81,7 +83,14 @@ inline void resample(column& c, const regrid& g, double scale, double tail) {
 /// @param on_steps  The row whose bounds belong to steps, not to knots.
 template <class Rows>
 void resample_multipliers(Rows& rows, const regrid& g, int on_steps) {
+  const auto knots = static_cast<std::size_t>(g.last) + 1;
   rows.each([&](auto& row, int index) {
+    // Most bounds hold nothing back.
+    if (std::ranges::count(std::span{row.y}.first(knots), 0.0)
+        == static_cast<std::ptrdiff_t>(knots)) {
+      std::fill_n(row.y.begin(), g.last_of_new + 1, 0.0);
+      return;
+    }
     resample(row.y, index == on_steps ? g.of_steps() : g, g.step, 0);
   });
 }

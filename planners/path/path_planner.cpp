@@ -1,6 +1,8 @@
 // Planning paths on a grid that stays.
 #include "planners/path/path_planner.hpp"
 
+#include "planners/problems/solver_desk.hpp"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -36,10 +38,12 @@ bool path_planner::follows(const path_start& car) const {
 ocp::solve_report path_planner::plan(const path_start& car,
                                      std::span<const passing> others,
                                      const ocp::budget& go_on) {
+  auto& solver = solver_desk::here().path;
   if (!follows(car)) {
     forget();
-    if (solve(car.s_m, car.x, ocp::start::cold, others, go_on))
-      adopt_solution(car.s_m, 0);
+    solver.resume({});
+    if (solve(solver, car.s_m, car.x, ocp::start::cold, others, go_on))
+      adopt(solver, car.s_m, 0);
     return report_;
   }
   const auto passed =
@@ -51,11 +55,12 @@ ocp::solve_report path_planner::plan(const path_start& car,
     return report_;
   const auto first = static_cast<std::size_t>(passed) + 1;
   const auto s = path_.start_s_m + static_cast<double>(first) * path_.ds_m;
-  if (settled_)
-    solver_.shift(passed + 1 - frozen_);
   const auto how = settled_ ? ocp::start::warm : ocp::start::cold;
-  if (solve(s, path_.knots[first].x, how, others, go_on))
-    adopt_solution(s, static_cast<int>(first));
+  solver.resume(kept_);
+  if (settled_)
+    solver.shift(passed + 1 - frozen_);
+  if (solve(solver, s, path_.knots[first].x, how, others, go_on))
+    adopt(solver, s, static_cast<int>(first));
   // It may have moved on by a piece, but never from below the car.
   assert(path_.start_s_m <= car.s_m + knots_off_m);
   assert(car.s_m <= path_.end_s_m());
@@ -64,26 +69,29 @@ ocp::solve_report path_planner::plan(const path_start& car,
 
 // A path goes on as it was planned, as a rule; where that leaves the corridor,
 // as others have come, it may drift beyond before it comes back.
-bool path_planner::solve(double s_m, const path_state& from, ocp::start how,
-                         std::span<const passing> others,
+bool path_planner::solve(path_ocp& solver, double s_m, const path_state& from,
+                         ocp::start how, std::span<const passing> others,
                          const ocp::budget& go_on) {
-  return attempt(s_m, from, how, others, corridor::steering::as_planned, go_on)
+  return attempt(solver, s_m, from, how, others, corridor::steering::as_planned,
+                 go_on)
          || (report_.status != ocp::solve_status::budget
-             && attempt(s_m, from, ocp::start::cold, others,
+             && attempt(solver, s_m, from, ocp::start::cold, others,
                         corridor::steering::drifts, go_on));
 }
 
-bool path_planner::attempt(double s_m, const path_state& from, ocp::start how,
-                           std::span<const passing> others,
+bool path_planner::attempt(path_ocp& solver, double s_m, const path_state& from,
+                           ocp::start how, std::span<const passing> others,
                            corridor::steering steers,
                            const ocp::budget& go_on) {
   assert(grid_.steps >= 1 && grid_.steps <= ocp::most_steps);
   assert(grid_.ds_m > 0);
   const auto n = static_cast<std::size_t>(grid_.steps);
-  corridor_.open(*line_, s_m, grid_.ds_m, grid_.steps);
+  lane_.move(*line_, s_m, grid_.ds_m, grid_.steps);
+  corridor room;
+  room.open(lane_);
   for (const auto& other : others)
-    corridor_.pass(other.body, other.side);
-  corridor_.admit(from, steers);
+    room.pass(other.body, other.side);
+  room.admit(from, steers);
   narrowed_ = !others.empty();
   bends_.resize(2 * n + 1);
   wanted_.assign(n + 1, 0);
@@ -97,37 +105,37 @@ bool path_planner::attempt(double s_m, const path_state& from, ocp::start how,
   problem.start = from;
   problem.curvature_1pm = bends_;
   problem.wanted_m = wanted_;
-  problem.discs = corridor_.discs();
+  problem.discs = room.discs();
   problem.curvature_max_1pm =
       std::max(curvature_max_1pm, std::abs(from.curvature_1pm));
   problem.rate_max_1pm2 = rate_max_1pm2;
-  report_ = solver_.solve(problem, how, {}, go_on);
+  report_ = solver.solve(problem, how, {}, go_on);
   if (how == ocp::start::warm && !ocp::publishable(report_.status))
-    report_ = solver_.solve(problem, ocp::start::cold, {}, go_on);
+    report_ = solver.solve(problem, ocp::start::cold, {}, go_on);
   settled_ = ocp::publishable(report_.status)
              || (report_.status == ocp::solve_status::soft_infeasible
                  && report_.iterations > 0
-                 && corridor_.contains(
-                     solver_.offset_m(), solver_.heading_rad(),
-                     std::min(reduced_margin_m,
-                              std::max(0.0, corridor_.gap_m() / 2))));
-  assert(!settled_ || solver_.steps() == grid_.steps);
+                 && room.contains(solver.offset_m(), solver.heading_rad(),
+                                  std::min(reduced_margin_m,
+                                           std::max(0.0, room.gap_m() / 2))));
+  assert(!settled_ || solver.steps() == grid_.steps);
   assert(!settled_ || !std::isnan(report_.cost));
   return settled_;
 }
 
 // The solver's plan behind the knot that the car has passed last.
-void path_planner::adopt_solution(double s_m, int first) {
+void path_planner::adopt(const path_ocp& solved, double s_m, int first) {
   assert(settled_ && std::isfinite(s_m));
   assert(first >= 0 && first <= path_.size);
+  solved.keep(kept_);
   frozen_ = first > 0 ? 1 : 0;
   auto at = path_.knots.begin();
   if (frozen_)
     *at++ = path_.knots[static_cast<std::size_t>(first) - 1];
-  for (int k = 0; k <= solver_.steps(); ++k) {
+  for (int k = 0; k <= solved.steps(); ++k) {
     const auto i = static_cast<std::size_t>(k);
-    (at++)->x = {solver_.offset_m()[i], solver_.heading_rad()[i],
-                 solver_.curvature_1pm()[i]};
+    (at++)->x = {solved.offset_m()[i], solved.heading_rad()[i],
+                 solved.curvature_1pm()[i]};
   }
   path_.ds_m = grid_.ds_m;
   path_.start_s_m = s_m - frozen_ * path_.ds_m;

@@ -58,21 +58,22 @@ public:
   bool follows(const path_start& car) const;
 
 private:
-  bool solve(double s_m, const path_state& from, ocp::start how,
-             std::span<const passing> others, const ocp::budget& go_on);
-  bool attempt(double s_m, const path_state& from, ocp::start how,
-               std::span<const passing> others, corridor::steering steers,
-               const ocp::budget& go_on);
-  void adopt_solution(double s_m, int first);
+  bool solve(path_ocp& solver, double s_m, const path_state& from,
+             ocp::start how, std::span<const passing> others,
+             const ocp::budget& go_on);
+  bool attempt(path_ocp& solver, double s_m, const path_state& from,
+               ocp::start how, std::span<const passing> others,
+               corridor::steering steers, const ocp::budget& go_on);
+  void adopt(const path_ocp& solved, double s_m, int first);
 
   const reference_line* line_;
   grid grid_;
-  corridor corridor_;
-  path_ocp solver_;
+  lane_bounds lane_;
+  ocp::kept_plan kept_; // what the solver goes on from
   planned_path path_;
   int frozen_ = 0;        // knots of the path before the solver's first
   bool narrowed_ = false; // something was in the lane
-  bool settled_ = false;  // the solver's memory is of the path
+  bool settled_ = false;  // what is kept is of the path
   ocp::solve_report report_;
   std::vector<double> bends_, wanted_;
 };

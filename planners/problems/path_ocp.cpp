@@ -140,6 +140,25 @@ void path_ocp::carry_over(double by_m, double ds_m, int steps) noexcept {
   ds_m_ = ds_m;
 }
 
+void path_ocp::keep(ocp::kept_plan& out) const {
+  if (started_)
+    ocp::keep(w_, ds_m_, out);
+  else
+    out.steps = 0;
+  assert(out.is_empty() || out.steps == w_.n);
+}
+
+void path_ocp::resume(const ocp::kept_plan& from) {
+  ocp::spoil(w_);
+  started_ = !from.is_empty();
+  if (!started_)
+    return;
+  ds_m_ = from.ds_m;
+  w_.rows.discs = ocp::path_rows::most_discs; // all that may be
+  ocp::put_back(from, w_);
+  assert(w_.is_sized());
+}
+
 ocp::solve_report path_ocp::solve(const path_problem& problem, ocp::start from,
                                   const path_options& options,
                                   const ocp::budget& go_on) noexcept {

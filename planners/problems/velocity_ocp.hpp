@@ -3,6 +3,7 @@
 #pragma once
 
 #include "planners/ocp/carry_over.hpp"
+#include "planners/ocp/kept_plan.hpp"
 #include "planners/ocp/status.hpp"
 #include "planners/problems/velocity_model.hpp"
 
@@ -89,6 +90,13 @@ public:
 
   /// The same by whole knots, on the same grid.
   void shift(int knots) noexcept { carry_over(knots * ds_m_, ds_m_, w_.n); }
+
+  /// Takes out what a later solve, with this solver or another, goes on from.
+  /// @param out  Empty if there is no plan.
+  void keep(ocp::kept_plan& out) const;
+
+  /// As after the solve of which that was kept; forgets all else.
+  void resume(const ocp::kept_plan& from);
 
   int steps() const { return w_.n; }
 

@@ -19,7 +19,7 @@ struct part {
 // Three discs cover 5.10 m × 1.89 m from 1.0825 m behind the rear axle on,
 // to within 4 mm at the corners.
 constexpr double disc_radius_m = 1.27;
-constexpr std::array<part, ocp::path_rows::most_discs> parts{
+constexpr std::array<part, lane_bounds::parts> parts_of_car{
     {{0, 0},
      {-0.23, disc_radius_m},
      {1.47, disc_radius_m},
@@ -68,16 +68,15 @@ double drift_m(double ahead_m, double heading_rad, double curvature_1pm) {
 
 double corridor::swing_m(double bends_1pm) {
   constexpr auto front_m = 4.0175; // from the axle to the bumper
-  constexpr auto last_disc_m = parts.back().ahead_m;
+  constexpr auto last_disc_m = parts_of_car.back().ahead_m;
   assert(bends_1pm >= 0);
   return std::min(disc_excess_m,
                   bends_1pm * (front_m * front_m - last_disc_m * last_disc_m)
                       / 2);
 }
 
-// Most of the lane is the one of the cycle before.
-void corridor::open(const reference_line& line, double s_m, double ds_m,
-                    int steps) {
+void lane_bounds::move(const reference_line& line, double s_m, double ds_m,
+                       int steps) {
   assert(ds_m > 0 && std::isfinite(ds_m));
   assert(steps >= 1 && steps <= ocp::most_steps);
   const auto moved = (s_m - s_m_) / ds_m;
@@ -91,41 +90,50 @@ void corridor::open(const reference_line& line, double s_m, double ds_m,
   s_m_ = s_m;
   ds_m_ = ds_m;
   steps_ = steps;
+  for (std::size_t part = 0; part < parts; ++part) {
+    for (auto* column : {&lo_[part], &hi_[part]}) {
+      column->resize(static_cast<std::size_t>(steps) + 1);
+      if (by <= steps)
+        std::copy(column->begin() + by, column->end(), column->begin());
+    }
+    measure(part, std::max(0, steps + 1 - by), steps);
+  }
+}
+
+void lane_bounds::measure(std::size_t part, int from, int to) {
+  assert(line_ && part < parts);
+  assert(from >= 0 && to <= steps_);
+  const auto [ahead_m, radius_m] = parts_of_car[part];
+  for (auto k = from; k <= to; ++k) {
+    const auto s = s_m_ + k * ds_m_;
+    const auto room = part == 0 ? corridor::freedom_m
+                                : line_->half_width_m(s + ahead_m) - radius_m;
+    const auto bow = part == 0 ? 0 : line_->bow_m(s, ahead_m);
+    const auto at = static_cast<std::size_t>(k);
+    lo_[part][at] = std::min(bow - room, -least_room_m);
+    hi_[part][at] = std::max(bow + room, least_room_m);
+    assert(!(lo_[part][at] > hi_[part][at])); // the line itself fits
+  }
+}
+
+void corridor::open(const lane_bounds& lane) {
+  lane_ = &lane;
+  assert(lane.steps() >= 1 && lane.steps() <= ocp::most_steps);
   kept_gap_m_ = passing_gap_m;
-  const auto knots = static_cast<std::size_t>(steps) + 1;
+  const auto knots = static_cast<std::size_t>(lane.steps()) + 1;
   for (std::size_t j = 0; j < rows; ++j) {
-    if (by <= steps)
-      for (auto* column : {&lane_lo_[j], &lane_hi_[j]})
-        std::copy(column->begin() + by, column->begin() + steps + 1,
-                  column->begin());
-    measure_lane(j, std::max(0, steps + 1 - by), steps);
-    std::copy_n(lane_lo_[j].begin(), knots, lo_[j].begin());
-    std::copy_n(lane_hi_[j].begin(), knots, hi_[j].begin());
+    std::ranges::copy(lane.lo_m(j), lo_[j].begin());
+    std::ranges::copy(lane.hi_m(j), hi_[j].begin());
     constexpr auto far_m = std::numeric_limits<double>::infinity();
     std::fill_n(near_left_[j].begin(), knots, far_m);
     std::fill_n(near_right_[j].begin(), knots, -far_m);
-    discs_[j] = {parts[j].ahead_m, std::span{lo_[j]}.first(knots),
+    discs_[j] = {parts_of_car[j].ahead_m, std::span{lo_[j]}.first(knots),
                  std::span{hi_[j]}.first(knots)};
   }
 }
 
-void corridor::measure_lane(std::size_t part, int from, int to) {
-  assert(line_ && part < rows);
-  assert(from >= 0 && to <= steps_);
-  const auto [ahead_m, radius_m] = parts[part];
-  for (auto k = from; k <= to; ++k) {
-    const auto s = s_m_ + k * ds_m_;
-    const auto room =
-        part == 0 ? freedom_m : line_->half_width_m(s + ahead_m) - radius_m;
-    const auto bow = part == 0 ? 0 : line_->bow_m(s, ahead_m);
-    lane_lo_[part][k] = std::min(bow - room, -least_room_m);
-    lane_hi_[part][k] = std::max(bow + room, least_room_m);
-    assert(!(lane_lo_[part][k] > lane_hi_[part][k])); // the line itself fits
-  }
-}
-
 void corridor::pass(const lane_obstacle& body, side_of_road side) {
-  assert(line_ && steps_ >= 1); // opened
+  assert(lane_); // opened
   assert(!(body.from_m > body.to_m));
   // What is lacking is taken from the gap first, then from what discs are
   // wider than the car at the other side.
@@ -133,23 +141,23 @@ void corridor::pass(const lane_obstacle& body, side_of_road side) {
   const auto over = body.lacks_m - from_gap;
   kept_gap_m_ = std::min(kept_gap_m_, passing_gap_m - from_gap);
   const auto left = side == side_of_road::left ? body.left_m : 0.0;
-  for (int k = 0; k <= steps_; ++k) {
-    const auto s = s_m_ + k * ds_m_;
+  for (int k = 0; k <= lane_->steps(); ++k) {
+    const auto s = lane_->s_m() + k * lane_->ds_m();
     if (s > body.from_m - evasion_m && s < body.to_m + evasion_m) {
-      const auto lane = line_->half_width_m(s);
+      const auto lane = lane_->line().half_width_m(s);
       lo_[0][k] = std::min(lo_[0][k], -lane);
       hi_[0][k] = std::max(hi_[0][k], lane + left);
       for (std::size_t j = 1; j < rows && left > 0; ++j)
-        hi_[j][k] = std::max(hi_[j][k], lane_hi_[j][k] + left);
+        hi_[j][k] = std::max(hi_[j][k], lane_->hi_m(j, k) + left);
     }
     assert(!(lo_[0][k] > hi_[0][k])); // the discs are held, not the axle
     for (std::size_t j = 1; j < rows; ++j) {
-      const auto& p = parts[j];
+      const auto& p = parts_of_car[j];
       const auto at = s + p.ahead_m;
-      const auto reach = p.radius_m + ds_m_ / 2;
+      const auto reach = p.radius_m + lane_->ds_m() / 2;
       if (at < body.from_m - reach || at > body.to_m + reach)
         continue;
-      const auto bow = line_->bow_m(s, p.ahead_m);
+      const auto bow = lane_->line().bow_m(s, p.ahead_m);
       const auto gap = passing_gap_m - from_gap + p.radius_m - disc_excess_m;
       // Who moves may be in its own lane by then.
       constexpr auto far_m = 1e3;
@@ -160,21 +168,21 @@ void corridor::pass(const lane_obstacle& body, side_of_road side) {
         near_right_[j][k] =
             std::max(near_right_[j][k], body.high_m + near + bow);
         lo_[j][k] = std::max(lo_[j][k], body.high_m + gap + bow);
-        if (hi_[j][k] >= lane_hi_[j][k]) // no other body is there
-          hi_[j][k] = std::max(hi_[j][k], lane_hi_[j][k] + over);
+        if (hi_[j][k] >= lane_->hi_m(j, k)) // no other body is there
+          hi_[j][k] = std::max(hi_[j][k], lane_->hi_m(j, k) + over);
       } else {
         near_left_[j][k] = std::min(near_left_[j][k], body.low_m - near + bow);
         hi_[j][k] = std::min(hi_[j][k], body.low_m - gap + bow);
-        if (lo_[j][k] <= lane_lo_[j][k])
-          lo_[j][k] = std::min(lo_[j][k], lane_lo_[j][k] - over);
+        if (lo_[j][k] <= lane_->lo_m(j, k))
+          lo_[j][k] = std::min(lo_[j][k], lane_->lo_m(j, k) - over);
       }
     }
   }
 }
 
 void corridor::admit(const path_state& start, steering steers) {
-  assert(line_ && steps_ >= 1); // opened
-  assert(ds_m_ > 0 && kept_gap_m_ >= 0);
+  assert(lane_); // opened
+  assert(lane_->ds_m() > 0 && kept_gap_m_ >= 0);
   // Both sides alike, measured outwards.
   const auto widened = [](double room, double lane, double over, double off,
                           double fading) {
@@ -182,7 +190,7 @@ void corridor::admit(const path_state& start, steering steers) {
         room, std::min(room + over * fading, lane + spare_m + off * fading));
   };
   for (std::size_t j = 0; j < rows; ++j) {
-    const auto ahead = parts[j].ahead_m;
+    const auto ahead = parts_of_car[j].ahead_m;
     const auto y = start.d_m + ahead * std::sin(start.heading_rad);
     auto left = y, right = y;
     if (steers == steering::drifts) {
@@ -193,17 +201,17 @@ void corridor::admit(const path_state& start, steering steers) {
     const auto under = std::max(0.0, lo_[j][0] - right);
     if (over == 0 && under == 0)
       continue;
-    const auto off_left = std::max(0.0, y - lane_hi_[j][0]);
-    const auto off_right = std::max(0.0, lane_lo_[j][0] - y);
-    for (int k = 0; k <= steps_ && k * ds_m_ < return_m; ++k) {
-      const auto fading = 1 - k * ds_m_ / return_m;
+    const auto off_left = std::max(0.0, y - lane_->hi_m(j, 0));
+    const auto off_right = std::max(0.0, lane_->lo_m(j, 0) - y);
+    for (int k = 0; k <= lane_->steps() && k * lane_->ds_m() < return_m; ++k) {
+      const auto fading = 1 - k * lane_->ds_m() / return_m;
       // Who is nearer to a body than that stands.
       const auto most = near_left_[j][k], least = near_right_[j][k];
-      hi_[j][k] =
-          std::min(widened(hi_[j][k], lane_hi_[j][k], over, off_left, fading),
-                   std::max(hi_[j][k], most));
+      hi_[j][k] = std::min(
+          widened(hi_[j][k], lane_->hi_m(j, k), over, off_left, fading),
+          std::max(hi_[j][k], most));
       lo_[j][k] = std::max(
-          -widened(-lo_[j][k], -lane_lo_[j][k], under, off_right, fading),
+          -widened(-lo_[j][k], -lane_->lo_m(j, k), under, off_right, fading),
           std::min(lo_[j][k], least));
       kept_gap_m_ = std::min({kept_gap_m_, most - hi_[j][k] + touching_m,
                               lo_[j][k] - least + touching_m});
@@ -215,12 +223,13 @@ bool corridor::contains(std::span<const double> d_m,
                         std::span<const double> heading_rad,
                         double tolerance_m) const {
   assert(d_m.size() == heading_rad.size());
-  assert(d_m.size() <= static_cast<std::size_t>(steps_) + 1);
+  assert(d_m.size() <= static_cast<std::size_t>(lane_->steps()) + 1);
   assert(tolerance_m >= 0);
   for (std::size_t j = 0; j < rows; ++j)
     for (std::size_t k = 1; k < d_m.size(); ++k) {
       const auto at = static_cast<int>(k);
-      const auto y = d_m[k] + parts[j].ahead_m * std::sin(heading_rad[k]);
+      const auto y =
+          d_m[k] + parts_of_car[j].ahead_m * std::sin(heading_rad[k]);
       if (y < lo_[j][at] - tolerance_m || y > hi_[j][at] + tolerance_m)
         return false;
     }

@@ -1,6 +1,7 @@
 // Setting up the velocity problem, and motions for when it does not fit.
 #include "planners/speed/speed_planner.hpp"
 
+#include "planners/problems/solver_desk.hpp"
 #include "planners/speed/clearance.hpp"
 #include "planners/speed/closed_form_motion.hpp"
 #include "planners/speed/promise.hpp"
@@ -222,11 +223,12 @@ bool speed_planner::drive(const planned_path& path, double way_m,
   assert(decel > 0);
   const auto recovers =
       from.accel_mps2 < -style_.firm_decel_mps2() - beyond_firm_mps2;
-  solve(pose(start, *ahead, decel, recovers), path.s_m(way_m + from.s_m), r,
-        go_on);
+  auto& solver = solver_desk::here().velocity;
+  solve(solver, pose(start, *ahead, decel, recovers),
+        path.s_m(way_m + from.s_m), r, go_on);
   if (r.report.iterations == 0 && !solved_)
     return false;
-  drive_along(solver_, ahead->ds_m, from.s_m, start.at_s, style_.step_s, steps_,
+  drive_along(solver, ahead->ds_m, from.s_m, start.at_s, style_.step_s, steps_,
               motion_);
   assert(motion_.size() <= static_cast<std::size_t>(steps_) + 1);
   r.how = speed_mode::optimal;
@@ -339,20 +341,23 @@ velocity_problem speed_planner::pose(const beginning& start,
 
 // From the plan before, if that leads on to `s_m`; else, or if it is of no
 // help, from scratch.
-void speed_planner::solve(const velocity_problem& p, double s_m, result& r,
-                          const ocp::budget& go_on) {
+void speed_planner::solve(velocity_ocp& solver, const velocity_problem& p,
+                          double s_m, result& r, const ocp::budget& go_on) {
   assert(std::isfinite(s_m));
   const auto stops = p.stop_knot.has_value();
   const auto warm = solved_ && solved_stop_ == stops && s_m >= solved_s_m_
                     && s_m < solved_s_m_ + longest_shift_m;
+  solver.resume(kept_);
   if (warm)
-    solver_.carry_over(s_m - solved_s_m_, p.ds_m, p.steps);
+    solver.carry_over(s_m - solved_s_m_, p.ds_m, p.steps);
   r.report =
-      solver_.solve(p, warm ? ocp::start::warm : ocp::start::cold, {}, go_on);
+      solver.solve(p, warm ? ocp::start::warm : ocp::start::cold, {}, go_on);
   if (warm && !ocp::publishable(r.report.status))
-    r.report = solver_.solve(p, ocp::start::cold, {}, go_on);
+    r.report = solver.solve(p, ocp::start::cold, {}, go_on);
   solved_ = ocp::publishable(r.report.status);
-  assert(!solved_ || solver_.steps() == p.steps);
+  assert(!solved_ || solver.steps() == p.steps);
+  if (solved_)
+    solver.keep(kept_);
   solved_stop_ = stops;
   solved_s_m_ = s_m;
 }

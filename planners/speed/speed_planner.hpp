@@ -88,8 +88,8 @@ private:
                     const stretch& ahead, bool& emergency);
   velocity_problem pose(const beginning& start, const stretch& ahead,
                         double decel_mps2, bool recovers) const;
-  void solve(const velocity_problem& p, double s_m, result& r,
-             const ocp::budget& go_on);
+  void solve(velocity_ocp& solver, const velocity_problem& p, double s_m,
+             result& r, const ocp::budget& go_on);
   void set_limits(const planned_path& path, double from_m, double ds_m,
                   int steps);
   void be_cautious(const speed_constraints& task, double from_m, double ds_m);
@@ -104,8 +104,8 @@ private:
   route_profile_ptr way_;
   comfort_limits style_;
   grid grid_;
-  velocity_ocp solver_;
-  bool solved_ = false;      // the solver has a plan that can be carried over
+  ocp::kept_plan kept_;      // what the solver goes on from
+  bool solved_ = false;      // that can be carried over
   bool solved_stop_ = false; // and it ends at rest
   double solved_s_m_ = 0;    // it begins here
   speed_profile motion_;

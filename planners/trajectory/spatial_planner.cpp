@@ -54,12 +54,8 @@ spatial_planner::spatial_planner(route_profile_ptr way,
     : way_{std::move(way)}, style_{style}, params_{params},
       path_{std::make_unique<path_planner>(way_->line,
                                            grid_of<path_planner>(params))},
-      other_path_{std::make_unique<path_planner>(
-          way_->line, grid_of<path_planner>(params))},
       speed_{std::make_unique<speed_planner>(way_, style,
-                                             grid_of<speed_planner>(params))},
-      other_speed_{std::make_unique<speed_planner>(
-          way_, style, grid_of<speed_planner>(params))} {
+                                             grid_of<speed_planner>(params))} {
   assert(params_.candidates >= 1 && params_.alternations >= 1);
   assert(params_.step_m > 0
          && params_.horizon_m / params_.step_m <= ocp::most_steps);
@@ -144,7 +140,9 @@ bool spatial_planner::plan_path(const scene& at, plan_report& report,
     // was chosen last; that one is planned first.
     const auto first = &sides == &all_sides_.front();
     auto& trial = first ? path_ : other_path_;
-    if (!first)
+    if (!first && !trial)
+      trial = std::make_unique<path_planner>(*path_);
+    else if (!first)
       *trial = *path_;
     const auto solved = trial->plan(car, sides.bodies, go_on);
     report.iterations += solved.iterations;
@@ -376,7 +374,10 @@ bool spatial_planner::plan_speed(const scene& at, plan_report& report,
     if (waits && best.first == worth::drives)
       continue; // only when nothing else is left
     auto& trial = first ? speed_ : other_speed_;
-    if (!first)
+    if (!first && !trial)
+      trial = std::make_unique<speed_planner>(way_, style_,
+                                              grid_of<speed_planner>(params_));
+    else if (!first)
       trial->forget();
     auto t = free;
     t.windows = std::span{order.windows}.first(order.count);

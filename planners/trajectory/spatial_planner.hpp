@@ -71,7 +71,7 @@ private:
   comfort_limits style_;
   spatial_params params_;
   world::vehicle_params car_;
-  // The plan in use and one to try others with.
+  // The plan in use, and one to try others with as soon as there are any.
   std::unique_ptr<path_planner> path_, other_path_;
   std::unique_ptr<speed_planner> speed_, other_speed_;
   double way_m_ = 0;        // of the car on its path, ...

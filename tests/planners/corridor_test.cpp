@@ -18,6 +18,16 @@ namespace {
 constexpr auto steps = 60;
 constexpr auto half_car_m = 0.945;
 
+/// A corridor, and the lane that it is of.
+struct lane_with_bodies : corridor {
+  lane_bounds lane;
+
+  void open(const reference_line& line, double s_m, double ds_m, int count) {
+    lane.move(line, s_m, ds_m, count);
+    corridor::open(lane);
+  }
+};
+
 bool holds(const corridor& room, double d_m, double heading_rad) {
   const std::vector<double> d(steps + 1, d_m), heading(steps + 1, heading_rad);
   return room.contains(d, heading, 0);
@@ -50,7 +60,7 @@ TEST_CASE("the line itself always fits") {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const auto way = test::random_road(seed, 300, seed % 2 == 0 ? 15 : 6);
     const reference_line line{way};
-    corridor room;
+    lane_with_bodies room;
     room.open(line, 3.3 * static_cast<double>(seed), 1, steps);
     CHECK(holds(room, 0, 0));
   }
@@ -58,7 +68,7 @@ TEST_CASE("the line itself always fits") {
 
 TEST_CASE("in a free lane the axle keeps near the centre line") {
   const reference_line line{test::straight(200, {{0, 10}})};
-  corridor room;
+  lane_with_bodies room;
   room.open(line, 10, 1, steps);
   CHECK(holds(room, corridor::freedom_m - 0.01, 0));
   CHECK(holds(room, -corridor::freedom_m + 0.01, 0));
@@ -71,7 +81,7 @@ TEST_CASE("a car that the corridor holds keeps its sides in the lane, in bends "
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     const auto way = test::random_road(seed, 300);
     const reference_line line{way};
-    corridor room;
+    lane_with_bodies room;
     test::dice dice{seed};
     const auto start = dice.between(5, 200);
     room.open(line, start, 1, steps);
@@ -113,12 +123,12 @@ TEST_CASE("a car that the corridor holds keeps its sides in the lane, in bends "
 TEST_CASE("a corridor that moved on is the one of the new place") {
   const auto way = test::random_road(3, 400);
   const reference_line line{way};
-  corridor moving;
+  lane_with_bodies moving;
   auto s = 12.25;
   for (const auto by : {0, 1, 3, 0, 59, 60, 61, 17, -5}) {
     s += by;
     moving.open(line, s, 1, steps);
-    corridor fresh;
+    lane_with_bodies fresh;
     fresh.open(line, s, 1, steps);
     CAPTURE(by);
     check_same(moving, fresh);
@@ -126,7 +136,7 @@ TEST_CASE("a corridor that moved on is the one of the new place") {
     moving.admit({0.9, 0.1, 0}, corridor::steering::drifts);
   }
   moving.open(line, s + 0.4, 1, steps); // between the old knots
-  corridor fresh;
+  lane_with_bodies fresh;
   fresh.open(line, s + 0.4, 1, steps);
   check_same(moving, fresh);
 }
@@ -141,7 +151,7 @@ TEST_CASE("beside a body the car keeps its distance, on the side it was told") {
       const auto left = side == side_of_road::left;
       const lane_obstacle body{from, from + length, left ? -2.0 : -edge,
                                left ? edge : 2.0, 0};
-      corridor room;
+      lane_with_bodies room;
       room.open(line, 0, 1, steps);
       room.pass(body, side);
       for (std::size_t k = 0; k <= steps; ++k) {
@@ -186,7 +196,7 @@ TEST_CASE(
     const lane_obstacle body{
         from, from + 2, is_left ? -2.5 : -edge,
         is_left ? edge + corridor::swing_m(1 / radius) : 2.5, 0};
-    corridor room;
+    lane_with_bodies room;
     room.open(line, from - 20, 0.5, steps);
     room.pass(body, is_left ? side_of_road::left : side_of_road::right);
     const auto k = static_cast<std::size_t>(dice.between(30, 46));
@@ -225,7 +235,7 @@ TEST_CASE("between two bodies both keep the car off, whichever comes first") {
   const reference_line line{test::straight(200, {{0, 10}})};
   const lane_obstacle left{30, 34, 0.9, 2, 0}, right{30, 34, -2, -0.9, 0};
   for (const auto left_first : {true, false}) {
-    corridor room;
+    lane_with_bodies room;
     room.open(line, 10, 1, steps);
     if (left_first)
       room.pass(left, side_of_road::right);
@@ -249,7 +259,7 @@ TEST_CASE("whoever comes too near to a body is let no farther into it") {
     const auto lacks = dice.between(0, 0.3);
     for (const auto side : {side_of_road::left, side_of_road::right}) {
       const auto left = side == side_of_road::left;
-      corridor room;
+      lane_with_bodies room;
       room.open(line, 0, 1, steps);
       room.pass({from, from + length, left ? -2.0 : -edge, left ? edge : 2.0, 0,
                  lacks},
@@ -277,7 +287,7 @@ TEST_CASE("a car that drifts may leave its lane by its discs, not by itself") {
   test::dice dice{10};
   for (auto i = 0; i < 500; ++i) {
     const path_state car{0, dice.between(-0.2, 0.2), dice.between(-0.2, 0.2)};
-    corridor room;
+    lane_with_bodies room;
     room.open(line, 0, 1, steps);
     room.admit(car, corridor::steering::drifts);
     for (std::size_t j = 1; j < room.discs().size(); ++j) {
@@ -295,7 +305,7 @@ TEST_CASE("a car that drifts may leave its lane by its discs, not by itself") {
 TEST_CASE("a lane that is blocked on one side stays open on the other, and "
           "one without room is closed") {
   const reference_line line{test::straight(200, {{0, 10}})};
-  corridor room;
+  lane_with_bodies room;
   room.open(line, 0, 1, steps);
   room.pass({30, 35, -2, 1, 0}, side_of_road::left);
   const auto [lo, hi] = straight_room(room, 32);
@@ -308,7 +318,7 @@ TEST_CASE("a car outside is let in, and 25 m on all is as before") {
   test::dice dice{8};
   for (auto i = 0; i < 200; ++i) {
     const path_state car{dice.between(-1.5, 1.5), dice.between(-0.3, 0.3), 0};
-    corridor room, free;
+    lane_with_bodies room, free;
     room.open(line, 20, 1, steps);
     free.open(line, 20, 1, steps);
     room.admit(car, corridor::steering::drifts);
