@@ -18,8 +18,8 @@ constexpr bool in_time(time_point since, time_point received,
 }
 
 /// @param name   The limit's: "latency".
-/// @param value  What was found: a time too long for the limit, or what a
-/// scene allows, of which the limit is more.
+/// @param value  What did not keep to it: a time above the limit, or the
+///               response time that a scene allows, below that of a split.
 /// @returns how an event tells that a limit did not hold:
 /// "latency value_ms=61.200000 limit_ms=50.000000".
 std::string in_words(std::string_view name, duration value, duration limit);

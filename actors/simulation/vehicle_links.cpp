@@ -79,7 +79,7 @@ void vehicle_links::join_stages() {
 }
 
 void vehicle_links::ask(messages::service_input input, time_point sensed_at) {
-  // Older ones are answered no more: there was no plan for so long.
+  // Without a plan, looks are kept for as long as one may still answer them.
   std::erase_if(looks_, [=](const messages::sensor_look& x) {
     return x.sensed_at < sensed_at - messages::look_lasts;
   });

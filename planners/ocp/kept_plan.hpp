@@ -43,10 +43,12 @@ void keep(const workspace<Problem>& w, double ds_m, kept_plan& out) {
   auto next = out.knots.begin();
   for (const auto* column : {&w.plan.x0, &w.plan.x1, &w.plan.x2, &w.plan.u})
     next = std::ranges::copy(w.knots(*column), next).out;
+  assert(next == out.knots.end());
   out.rho.fill(1);
   out.multipliers.clear();
   out.multipliers.reserve(knots); // enough as a rule
   w.rows.each([&](const auto& row, int number) {
+    assert(static_cast<std::size_t>(number) < out.rho.size());
     out.rho[static_cast<std::size_t>(number)] = row.rho;
     for (int k = 0; k <= w.n; ++k)
       if (row.y[k] != 0)
@@ -54,9 +56,9 @@ void keep(const workspace<Problem>& w, double ds_m, kept_plan& out) {
   });
 }
 
-/// Puts it back into one in which all rows are open.
+/// Puts it back into a workspace in which all rows are open.
 template <class Problem>
-void put_back(const kept_plan& from, workspace<Problem>& w) {
+void restore(const kept_plan& from, workspace<Problem>& w) {
   assert(!from.is_empty() && from.steps <= most_steps);
   const auto knots = static_cast<std::size_t>(from.steps) + 1;
   assert(from.knots.size() == 4 * knots);
@@ -72,16 +74,18 @@ void put_back(const kept_plan& from, workspace<Problem>& w) {
     row.rho = from.rho[static_cast<std::size_t>(number)];
     std::fill_n(row.y.begin(), knots, 0.0);
     for (; multiplier != from.multipliers.end() && multiplier->row == number;
-         ++multiplier)
+         ++multiplier) {
+      assert(multiplier->knot >= 0 && multiplier->knot <= from.steps);
       row.y[static_cast<std::size_t>(multiplier->knot)] = multiplier->y;
+    }
   });
   assert(multiplier == from.multipliers.end());
 }
 
-/// Where assertions are on: makes all of it numbers that are none, so that
-/// nobody goes on from what another solve has left.
+/// Fills it with NaN where assertions are on, so that no solve goes on from
+/// what another one has left.
 template <class Problem>
-void spoil([[maybe_unused]] workspace<Problem>& w) {
+void poison([[maybe_unused]] workspace<Problem>& w) {
 #ifndef NDEBUG
   std::memset(static_cast<void*>(&w), 0xff, sizeof w);
   w.rows = typename Problem::row_set();

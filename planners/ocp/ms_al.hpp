@@ -139,6 +139,8 @@ void ms_al<Problem>::begin() noexcept {
     for (int k = n; k < m; ++k)
       x->u[k] = 0;
   }
+  for (auto* feedback : {&w_.k0, &w_.k1, &w_.k2})
+    std::fill_n(feedback->begin(), m, 0.0); // of no step yet
   adopt();
   w_.rows.each([m](auto& r, int) {
     assert(r.rho > 0 && r.tolerance > 0);

@@ -1,5 +1,4 @@
-// All that a solve works on: fixed sizes, knots side by side, no pointers, so
-// that a solver can be copied byte by byte, to try another way from its plan.
+// All that a solve works on: fixed sizes, knots side by side, no pointers.
 #pragma once
 
 #include "planners/ocp/series.hpp"

@@ -1,7 +1,7 @@
 // Planning paths on a grid that stays.
 #include "planners/path/path_planner.hpp"
 
-#include "planners/problems/solver_desk.hpp"
+#include "planners/problems/thread_solvers.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -38,7 +38,7 @@ bool path_planner::follows(const path_start& car) const {
 ocp::solve_report path_planner::plan(const path_start& car,
                                      std::span<const passing> others,
                                      const ocp::budget& go_on) {
-  auto& solver = solver_desk::here().path;
+  auto& solver = thread_solvers::here().path;
   if (!follows(car)) {
     forget();
     solver.resume({});
@@ -128,6 +128,7 @@ void path_planner::adopt(const path_ocp& solved, double s_m, int first) {
   assert(settled_ && std::isfinite(s_m));
   assert(first >= 0 && first <= path_.size);
   solved.keep(kept_);
+  assert(!kept_.is_empty() && kept_.ds_m == grid_.ds_m);
   frozen_ = first > 0 ? 1 : 0;
   auto at = path_.knots.begin();
   if (frozen_)

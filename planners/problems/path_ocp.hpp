@@ -89,7 +89,7 @@ public:
   /// @param out  Empty if there is no plan.
   void keep(ocp::kept_plan& out) const;
 
-  /// As after the solve of which that was kept; forgets all else.
+  /// Restores the state after the solve that `from` was kept of.
   void resume(const ocp::kept_plan& from);
 
   int steps() const { return w_.n; }

@@ -257,6 +257,7 @@ void velocity_ocp::carry_over(double by_m, double ds_m, int steps) noexcept {
   ocp::resample(x.u, knots.of_steps(), 1, 0);
   ocp::resample_multipliers(w_.rows, knots, jerk_row);
   w_.n = steps;
+  w_.padded = ocp::padded(steps + 1);
   ds_m_ = ds_m;
 }
 
@@ -269,13 +270,13 @@ void velocity_ocp::keep(ocp::kept_plan& out) const {
 }
 
 void velocity_ocp::resume(const ocp::kept_plan& from) {
-  ocp::spoil(w_);
+  ocp::poison(w_);
   started_ = !from.is_empty();
   if (!started_)
     return;
   ds_m_ = from.ds_m;
   w_.rows.timed = true;
-  ocp::put_back(from, w_);
+  ocp::restore(from, w_);
   assert(w_.is_sized());
 }
 

@@ -97,6 +97,7 @@ void lane_bounds::move(const reference_line& line, double s_m, double ds_m,
         std::copy(column->begin() + by, column->end(), column->begin());
     }
     measure(part, std::max(0, steps + 1 - by), steps);
+    assert(lo_[part].size() == hi_[part].size());
   }
 }
 
@@ -127,6 +128,7 @@ void corridor::open(const lane_bounds& lane) {
     constexpr auto far_m = std::numeric_limits<double>::infinity();
     std::fill_n(near_left_[j].begin(), knots, far_m);
     std::fill_n(near_right_[j].begin(), knots, -far_m);
+    assert(!(lo_[j][0] > hi_[j][0]));
     discs_[j] = {parts_of_car[j].ahead_m, std::span{lo_[j]}.first(knots),
                  std::span{hi_[j]}.first(knots)};
   }

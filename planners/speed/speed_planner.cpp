@@ -1,7 +1,7 @@
 // Setting up the velocity problem, and motions for when it does not fit.
 #include "planners/speed/speed_planner.hpp"
 
-#include "planners/problems/solver_desk.hpp"
+#include "planners/problems/thread_solvers.hpp"
 #include "planners/speed/clearance.hpp"
 #include "planners/speed/closed_form_motion.hpp"
 #include "planners/speed/promise.hpp"
@@ -223,7 +223,7 @@ bool speed_planner::drive(const planned_path& path, double way_m,
   assert(decel > 0);
   const auto recovers =
       from.accel_mps2 < -style_.firm_decel_mps2() - beyond_firm_mps2;
-  auto& solver = solver_desk::here().velocity;
+  auto& solver = thread_solvers::here().velocity;
   solve(solver, pose(start, *ahead, decel, recovers),
         path.s_m(way_m + from.s_m), r, go_on);
   if (r.report.iterations == 0 && !solved_)
@@ -339,8 +339,7 @@ velocity_problem speed_planner::pose(const beginning& start,
   return p;
 }
 
-// From the plan before, if that leads on to `s_m`; else, or if it is of no
-// help, from scratch.
+// From the plan before, if that leads on to `s_m` and helps; or from scratch.
 void speed_planner::solve(velocity_ocp& solver, const velocity_problem& p,
                           double s_m, result& r, const ocp::budget& go_on) {
   assert(std::isfinite(s_m));
@@ -356,8 +355,7 @@ void speed_planner::solve(velocity_ocp& solver, const velocity_problem& p,
     r.report = solver.solve(p, ocp::start::cold, {}, go_on);
   solved_ = ocp::publishable(r.report.status);
   assert(!solved_ || solver.steps() == p.steps);
-  if (solved_)
-    solver.keep(kept_);
+  solver.keep(kept_);
   solved_stop_ = stops;
   solved_s_m_ = s_m;
 }

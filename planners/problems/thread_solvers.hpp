@@ -6,14 +6,14 @@
 
 namespace sofof::planners {
 
-/// 350 kB that planners share, one after the other: what they go on from
-/// they keep themselves, as a `kept_plan`.
-struct solver_desk {
+/// 350 kB that all planners of a thread use, one after the other: what a
+/// planner goes on from it keeps itself, as a `kept_plan`.
+struct thread_solvers {
   path_ocp path;
   velocity_ocp velocity;
 
-  /// @returns that of this thread.
-  static solver_desk& here();
+  /// @returns those of this thread.
+  static thread_solvers& here();
 };
 
 } // namespace sofof::planners
