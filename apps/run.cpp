@@ -5,8 +5,12 @@
 #include "apps/run_arguments.hpp"
 #include "apps/signals.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <iostream>
 #include <memory>
+#include <optional>
+#include <thread>
 
 namespace sofof::apps {
 
@@ -18,9 +22,20 @@ void add_run(CLI::App& app, int& exit_code) {
                     "Run on the wall clock instead of in virtual time");
   command->add_flag("--cpu", args->options.cpu,
                     "With --realtime: keep accounts of who computes how much");
+  const auto threads = std::make_shared<std::optional<std::size_t>>();
+  command
+      ->add_option("--threads", *threads,
+                   "Compute plans on so many threads (default: one per core); "
+                   "results are the same")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024));
   command->footer("Example:\n  sofof run config/ulm_lehr.toml --seed 7 "
                   "--duration 1800s --out results/seven");
-  command->callback([args, &exit_code] {
+  command->callback([args, threads, &exit_code] {
+    args->options.threads = threads->value_or(
+        args->options.realtime
+            ? 1
+            : std::max(1U, std::thread::hardware_concurrency()));
     const auto s = args->what.load();
     catch_signals();
     exit_code = static_cast<int>(

@@ -1,6 +1,7 @@
 // What a requester knows of services that form a chain, and how late the
 // vehicle will respond to what it sees when they run elsewhere.
 #include "base/reason.hpp"
+#include "offloading/qos_monitor.hpp"
 #include "offloading/requester.hpp"
 #include "offloading/service_chain.hpp"
 

@@ -107,8 +107,12 @@ limits_in_scene(const service_options& options, duration safe);
 /// For which vehicle parts of a service are made.
 struct vehicle_context {
   station_id station = 0;
-  /// The time; it stands still during a cycle unless run times are real.
-  std::function<time_point()> clock = [] { return time_point{}; };
+  std::function<time_point()> clock = [] {
+    return time_point{};
+  }; ///< The time.
+  /// Whether run times are real; else no time passes in a cycle, and what is
+  /// left of one that has begun must not read the clock.
+  bool real_time = false;
 };
 
 /// The longest response time under which a vehicle's scene is safe, from what
@@ -169,9 +173,11 @@ public:
 struct provider_context {
   station_id station = 0; ///< As ITS messages name it.
   point position;         ///< m, east-north.
-  /// As in a vehicle.
-  std::function<time_point()> clock = [] { return time_point{}; };
-  provider_id id = 0; ///< Another one after each start.
+  std::function<time_point()> clock = [] {
+    return time_point{};
+  };                      ///< The time.
+  provider_id id = 0;     ///< Another one after each start.
+  bool real_time = false; ///< As in a vehicle.
 };
 
 /// A service at one provider. Where time is real, functions of several sessions

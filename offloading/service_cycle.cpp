@@ -38,6 +38,11 @@ cycle_setup own_cycle(const onboard_service& service, station_id vehicle,
           .per_input = service.options.per_input};
 }
 
+void cycle_port::deliver_at(time_point t, coming_result result) {
+  if (auto made = result.take())
+    deliver_at(t, std::move(*made));
+}
+
 service_cycle::service_cycle(cycle_setup setup, cycle_port& port)
     : setup_{std::move(setup)}, port_{port} {
   assert(setup_.function);
@@ -64,9 +69,10 @@ void service_cycle::on_input(const messages::service_input& input,
   newest_ = input;
   if (waits_for_input())
     stop_timer();
-  if (state_ != messages::lifecycle_state::active)
+  if (state_ != messages::lifecycle_state::active) {
+    end_last();
     setup_.function->observe(now, newest_);
-  else if (!has_timer_)
+  } else if (!has_timer_)
     begin(now);
   else if (input.at_once)
     run(now, true);
@@ -133,32 +139,57 @@ void service_cycle::run(time_point now, bool is_besides) {
   const auto is_ahead = cycle > on_grid + 1 + (is_besides ? 1 : 0);
   if (newest_.what.empty() || is_ahead)
     return;
-  auto output = setup_.function->run(now, newest_);
-  if (output.what.empty())
+  end_last();
+  auto begun = setup_.function->begin(now, newest_);
+  const auto* made = std::get_if<service_output>(&begun);
+  if (made && made->what.empty())
     return;
   assert(cycle >= after_any_ || !is_called);
   after_any_ = cycle + 1;
   if (is_called || cycle > on_grid)
     after_off_grid_ = after_any_;
   assert(after_off_grid_ <= after_any_);
+  coming_result result;
+  result.frame.session = setup_.session;
+  result.frame.cycle = cycle;
+  result.frame.created = setup_.per_input ? newest_.at : now;
+  compute(std::move(begun), result);
   const auto work = setup_.finish(now, cycle);
   assert(work.computing >= duration{0});
   assert(work.done - work.computing >= now);
-  messages::service_result result{
-      .session = setup_.session,
-      .cycle = cycle,
-      .created = setup_.per_input ? newest_.at : now,
-      .what = std::move(output.what),
-      .about = std::move(output.about),
-      .timing = {.input_at = newest_.at,
-                 .up = newest_.up,
-                 .queue = work.done - work.computing - now,
-                 .computing = work.computing}};
-  if (!setup_.review)
-    return port_.deliver_at(work.done, std::move(result));
-  under_way_ = std::move(result);
-  begun_ = now;
-  port_.wake_at(work.done, completion);
+  result.frame.timing = {.input_at = newest_.at,
+                         .up = newest_.up,
+                         .queue = work.done - work.computing - now,
+                         .computing = work.computing};
+  if (setup_.review) {
+    under_way_ = std::move(result);
+    begun_ = now;
+    port_.wake_at(work.done, completion);
+  } else if (result.output) {
+    port_.deliver_at(work.done, std::move(result));
+  } else if (!result.frame.what.empty()) {
+    port_.deliver_at(work.done, std::move(result.frame));
+  }
+}
+
+/// A pool computes what is left of the cycle, if there is one.
+void service_cycle::compute(begun_cycle cycle, coming_result& result) {
+  auto* left = std::get_if<std::function<service_output()>>(&cycle);
+  if (left && setup_.pool) {
+    last_ = std::make_shared<coming_output>(setup_.function, std::move(*left));
+    last_->begin(*setup_.pool);
+    result.output = last_;
+    return;
+  }
+  auto made = left ? (*left)() : std::get<service_output>(std::move(cycle));
+  result.frame.what = std::move(made.what);
+  result.frame.about = std::move(made.about);
+}
+
+/// A function does one thing after the other.
+void service_cycle::end_last() const {
+  if (last_)
+    last_->wait();
 }
 
 /// The cycle under way is done, or something more urgent came in between.
@@ -167,11 +198,13 @@ void service_cycle::look_after(time_point now) {
   const auto done = setup_.review(now);
   if (done > now)
     return port_.wake_at(done, completion);
-  auto result = std::move(*under_way_);
+  auto& timing = under_way_->frame.timing;
+  timing.queue = now - begun_ - timing.computing;
+  assert(timing.queue >= duration{0});
+  auto result = under_way_->take();
   under_way_.reset();
-  result.timing.queue = now - begun_ - result.timing.computing;
-  assert(result.timing.queue >= duration{0});
-  port_.deliver_at(now, std::move(result));
+  if (result)
+    port_.deliver_at(now, std::move(*result));
   if (std::exchange(is_due_, false))
     run(now);
   assert(is_consistent());

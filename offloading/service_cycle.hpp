@@ -3,6 +3,7 @@
 
 #include "base/random.hpp"
 #include "messages/protocol/lifecycle.hpp"
+#include "offloading/coming_result.hpp"
 #include "offloading/cycle_work.hpp"
 #include "offloading/service.hpp"
 
@@ -26,11 +27,14 @@ struct cycle_setup {
   /// If there is one, what `finish` says may become later, as where functions
   /// interrupt each other, and the function has one cycle at a time.
   /// @returns when the cycle under way is done, as far as is known now.
-  std::function<time_point(time_point now)> review;
+  std::function<time_point(time_point now)> review{};
   /// Whether the first cycle waits for its phase too, and is not run at once.
   bool keeps_phase = false;
   /// Whether a cycle is run for each input, and in no period without one.
   bool per_input = false;
+  /// In virtual time: who computes cycles until they are done; null: they are
+  /// computed when they start. Results are the same.
+  std::shared_ptr<job_pool> pool{};
 };
 
 /// @returns the cycle of a vehicle's own function, with a phase that is drawn;
@@ -48,6 +52,8 @@ public:
   virtual void wake_at(time_point t, std::uint64_t number) = 0;
   /// The result of a cycle, which is done then.
   virtual void deliver_at(time_point t, messages::service_result result) = 0;
+  /// The same, of a cycle that a pool computes; by default it is waited for.
+  virtual void deliver_at(time_point t, coming_result result);
 };
 
 /// Runs one function period by period, in a life cycle as ROS 2 nodes have it.
@@ -96,6 +102,8 @@ private:
   void stop_timer();
   void await_next(time_point now);
   void run(time_point now, bool is_besides = false);
+  void compute(begun_cycle cycle, coming_result& result);
+  void end_last() const;
   void look_after(time_point now);
 
   std::uint64_t grid_number(time_point t) const;
@@ -106,11 +114,12 @@ private:
   messages::service_input newest_;
   std::uint64_t timer_ = 0; // the one that counts
   bool has_timer_ = false;
-  std::uint64_t after_any_ = 0;      // number after the latest cycle,
-  std::uint64_t after_off_grid_ = 0; // and after the latest off the grid
-  std::optional<messages::service_result> under_way_; // if there is a `review`
-  time_point begun_;                                  // when that was
-  bool is_due_ = false; // the next cycle, once that is done
+  std::uint64_t after_any_ = 0;            // number after the latest cycle,
+  std::uint64_t after_off_grid_ = 0;       // and after the latest off the grid
+  std::shared_ptr<coming_output> last_;    // if a pool computes
+  std::optional<coming_result> under_way_; // if there is a `review`
+  time_point begun_;                       // when that was
+  bool is_due_ = false;                    // the next cycle, once that is done
 };
 
 } // namespace sofof::offloading

@@ -3,7 +3,9 @@
 
 #include "messages/protocol/service.hpp"
 
+#include <functional>
 #include <utility>
+#include <variant>
 
 namespace sofof::offloading {
 
@@ -18,6 +20,12 @@ struct service_output {
       : what{std::move(x)}, about{std::move(notes)} {}
 };
 
+/// The output of a cycle, or what is left to be computed of one that will most
+/// likely give a result; from what is the function's own, and from nothing that
+/// others change.
+using begun_cycle =
+    std::variant<service_output, std::function<service_output()>>;
+
 /// One running function. It has no clock of its own. In virtual time the same
 /// inputs at the same times give the same results. It is called by one thread
 /// at a time, not always the same; others of its service may run meanwhile.
@@ -29,6 +37,14 @@ public:
   /// @param input  The newest input; its `what` is not empty.
   virtual service_output run(time_point now,
                              const messages::service_input& input) = 0;
+
+  /// Begins a cycle, which may end later, by any thread while the world goes
+  /// on: takes from the world what the cycle needs to know as it is now. By
+  /// default it is run at once.
+  virtual begun_cycle begin(time_point now,
+                            const messages::service_input& input) {
+    return run(now, input);
+  }
 
   /// An input comes while the function does not run. What it knows of the world
   /// should be as good when it has to take over at once; it computes no result.

@@ -350,7 +350,9 @@ run_outcome finish(const played& run, const recording::run_info& info,
 
 std::unique_ptr<runtime> make_runtime(const run_options& options) {
   if (!options.realtime)
-    return make_virtual_runtime();
+    return make_virtual_runtime(
+        options.threads > 1 ? std::make_shared<job_pool>(options.threads - 1)
+                            : nullptr);
   return options.cpu ? make_accounting_runtime() : make_wall_clock_runtime();
 }
 
@@ -374,6 +376,9 @@ run_outcome run(const scenario_definition& s, const run_options& options,
   if (options.cpu && !options.realtime)
     throw input_error("--cpu measures computing time, which passes on the wall "
                       "clock only; add --realtime");
+  if (options.realtime && options.threads > 1)
+    throw input_error("--threads is of virtual time: on the wall clock all "
+                      "cores work; leave out one of --threads and --realtime");
   const auto time = make_runtime(options);
   return run_part(s, options, {}, *time, interrupted, console);
 }

@@ -7,6 +7,7 @@
 #include "scenario/scenario.hpp"
 
 #include <atomic>
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
@@ -31,6 +32,8 @@ struct run_options {
   recording::write_failure when_unwritable =
       recording::write_failure::ends_the_run;
   bool realtime = false; ///< On the wall clock instead of in virtual time.
+  /// In virtual time: this many compute; results are the same.
+  std::size_t threads = 1;
   /// Keep accounts of computing time, for cpu.csv; on the wall clock only.
   bool cpu = false;
   bool time_decisions = true; ///< For timing.csv, by the wall's clock.

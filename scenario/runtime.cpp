@@ -19,6 +19,7 @@
 
 #include <chrono>
 #include <thread>
+#include <utility>
 
 namespace sofof::scenario {
 
@@ -30,6 +31,10 @@ struct virtual_config : caf::actor_system_config {
 
 class virtual_runtime final : public runtime {
 public:
+  explicit virtual_runtime(std::shared_ptr<job_pool> pool) {
+    scheduler_.be_helped_by(std::move(pool));
+  }
+
   caf::actor_system& system() override { return system_; }
   time_point now() const override {
     return time_point{scheduler_.clock().now().time_since_epoch()};
@@ -185,8 +190,8 @@ private:
 
 } // namespace
 
-std::unique_ptr<runtime> make_virtual_runtime() {
-  return std::make_unique<virtual_runtime>();
+std::unique_ptr<runtime> make_virtual_runtime(std::shared_ptr<job_pool> pool) {
+  return std::make_unique<virtual_runtime>(std::move(pool));
 }
 
 std::unique_ptr<runtime> make_wall_clock_runtime() {

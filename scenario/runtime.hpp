@@ -3,6 +3,7 @@
 
 #include "actors/remote/connection_filter.hpp"
 #include "actors/runtime/clock_error.hpp"
+#include "base/job_pool.hpp"
 #include "base/time.hpp"
 #include "messages/etsi/its_time.hpp"
 #include "messages/type_ids.hpp"
@@ -67,7 +68,9 @@ public:
 };
 
 /// A discrete-event world; begins at time zero, deterministic.
-std::unique_ptr<runtime> make_virtual_runtime();
+/// @param pool  Helps to compute; null: nobody does.
+std::unique_ptr<runtime>
+make_virtual_runtime(std::shared_ptr<job_pool> pool = nullptr);
 
 /// CAF's own scheduler and the machine's steady clock.
 std::unique_ptr<runtime> make_wall_clock_runtime();

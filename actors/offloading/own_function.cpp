@@ -19,6 +19,11 @@ duration drawn_run_time(const world::cycle_options& compute,
 
 } // namespace
 
+offloading::vehicle_context context_of(const requester_actor_setup& vehicle,
+                                       std::function<time_point()> clock) {
+  return {vehicle.station, std::move(clock), !vehicle.virtual_time};
+}
+
 offloading::cycle_setup own_function(const requester_actor_setup& vehicle,
                                      const offloading::onboard_service& service,
                                      std::function<time_point()> clock,

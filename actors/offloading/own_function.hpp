@@ -11,6 +11,10 @@
 
 namespace sofof::actors {
 
+/// @returns for which vehicle its services are made.
+offloading::vehicle_context context_of(const requester_actor_setup& vehicle,
+                                       std::function<time_point()> clock);
+
 /// @param clock  The time, where it is real.
 /// @returns the cycle of the vehicle's own function of a service. In virtual
 /// time it takes a drawn run time, of the core that it shares, if it does.

@@ -25,8 +25,9 @@ provider_services::provider_services(const provider_actor_setup& setup,
       virtual_time_{setup.virtual_time}, clock_{std::move(clock)},
       doubts_{doubts_per_s, doubts_at_once} {
   for (const auto& what : setup.services) {
-    services_.push_back(at_provider(
-        what, {provider_station(number_), setup.position, clock_, id_}));
+    services_.push_back(
+        at_provider(what, {provider_station(number_), setup.position, clock_,
+                           id_, !virtual_time_}));
     auto* listener = listener_of(*services_.back().here);
     if (listener && std::ranges::find(listeners_, listener) == listeners_.end())
       listeners_.push_back(listener); // services may share it

@@ -2,6 +2,7 @@
 // offloading/service_cycle.
 #include "actors/offloading/service_instance.hpp"
 
+#include "actors/runtime/helping_scheduler.hpp"
 #include "actors/runtime/time.hpp"
 
 #include <caf/stateful_actor.hpp>
@@ -37,6 +38,11 @@ struct instance_state : offloading::cycle_port {
   void deliver_at(time_point t, messages::service_result result) override {
     send_at(self, results, t, std::move(result));
   }
+  void deliver_at(time_point t, offloading::coming_result result) override {
+    send_made_at(self, results, t, [coming = std::move(result)]() mutable {
+      return coming.take();
+    });
+  }
 };
 
 instance_impl::behavior_type
@@ -44,6 +50,7 @@ instance(instance_impl::stateful_pointer<instance_state> self,
          instance_setup setup) {
   self->state.self = self;
   self->state.results = std::move(setup.results);
+  setup.cycle.pool = pool_of(self->system());
   self->state.cycle.emplace(std::move(setup.cycle), self->state);
   return {
       [self](messages::lifecycle_step step) { self->state.on_step(step); },

@@ -38,7 +38,7 @@ struct requester_state {
 
   offloading::onboard_service add(const requester_actor_setup& setup,
                                   const client_service& what) {
-    auto service = in_vehicle(what.service, {setup.station, clock_of(self)});
+    auto service = in_vehicle(what.service, context_of(setup, clock_of(self)));
     const auto client = what.spawn_client(self->system(), vehicle);
     const auto own = own_function(setup, service, clock_of(self), what.seat);
     const auto manager = spawn_requester_manager(

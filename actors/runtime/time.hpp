@@ -4,9 +4,17 @@
 
 #include "base/time.hpp"
 
+#include <caf/action.hpp>
+#include <caf/actor_cast.hpp>
 #include <caf/actor_clock.hpp>
+#include <caf/actor_control_block.hpp>
 #include <caf/actor_system.hpp>
+#include <caf/error.hpp>
+#include <caf/message.hpp>
+#include <caf/sec.hpp>
+#include <caf/system_messages.hpp>
 
+#include <exception>
 #include <functional>
 #include <utility>
 
@@ -40,6 +48,30 @@ void send_at(Self* self, const Receiver& receiver, time_point t, Ts&&... xs) {
   self->scheduled_send(receiver,
                        caf::actor_clock::time_point{t.time_since_epoch()},
                        std::forward<Ts>(xs)...);
+}
+
+/// The same in virtual time with a message that `make` makes by then; without
+/// one nothing is delivered.
+/// @param make  Returns an optional, at `t`. What it throws ends `self`.
+template <class Self, class Receiver, class Make>
+void send_made_at(Self* self, const Receiver& receiver, time_point t,
+                  Make make) {
+  auto deliver = [from = caf::actor_cast<caf::strong_actor_ptr>(self),
+                  to = caf::actor_cast<caf::strong_actor_ptr>(receiver),
+                  make = std::move(make)]() mutable {
+    try {
+      if (auto made = make())
+        to->enqueue(from, caf::make_message_id(),
+                    caf::make_message(std::move(*made)), nullptr);
+    } catch (const std::exception& why) {
+      const auto failed = caf::make_error(caf::sec::runtime_error, why.what());
+      from->enqueue(nullptr, caf::make_message_id(),
+                    caf::make_message(caf::exit_msg{from->address(), failed}),
+                    nullptr);
+    }
+  };
+  self->clock().schedule(caf::actor_clock::time_point{t.time_since_epoch()},
+                         caf::make_action(std::move(deliver)));
 }
 
 /// Delivers a message after `d`.

@@ -5,6 +5,7 @@
 #include "actors/services/planning/others_around.hpp"
 #include "actors/services/planning/plan_cycle.hpp"
 #include "actors/services/planning/plan_request.hpp"
+#include "actors/services/planning/suggestion_writer.hpp"
 #include "base/protocol.hpp"
 #include "messages/v2x/encoded.hpp"
 #include "messages/v2x/mcm/mcm_content.hpp"
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace sofof::actors {
 
@@ -32,31 +32,60 @@ public:
 
   offloading::service_output
   run(time_point now, const messages::service_input& input) override {
-    if (auto message = others_.on_input(input.what, now);
-        message && message != heard_) {
-      on_report(*message, now);
-      heard_ = std::move(message);
-    }
-    if (!cycle_)
-      return {};
-    if (const auto own = perceived_->told_by(station_))
-      ego_->on_report({own->at, own->position, own->heading_rad, own->speed_mps,
-                       own->accel_mps2, own->curvature_1pm});
-    auto from = ego_->at(now);
-    if (!from)
-      return {};
-    from->others.stop_at_m = stop_at_m_;
-    from->others.agreed = agreed_.drive(*from, cycle_->way(), now);
-    const auto report =
-        others_.plan(now, planners::made_possible(*from), *cycle_);
-    ego_->follow(cycle_->plan());
-    if (!has_begun_ && (report.emergency || !others_.are_known()))
-      return {}; // until it would drive no worse than the vehicle itself
-    has_begun_ = true;
-    return said(report, input.session.counter);
+    return plan(look(now, input));
+  }
+
+  offloading::begun_cycle begin(time_point now,
+                                const messages::service_input& input) override {
+    if (!has_begun_)
+      return run(now, input);
+    return [this, seen = look(now, input)] { return plan(seen); };
   }
 
 private:
+  // What a cycle begins with.
+  struct moment {
+    time_point now;
+    std::shared_ptr<const messages::its_pdu> word; // of the vehicle
+    std::uint32_t session = 0;
+    std::optional<messages::cam> own; // that the vehicle has told last
+    bool others_are_known = false;
+  };
+
+  moment look(time_point now, const messages::service_input& input) {
+    auto word = others_.on_input(input.what, now);
+    others_.look();
+    return {now, std::move(word), input.session.counter,
+            perceived_->told_by(station_), others_.are_known()};
+  }
+
+  offloading::service_output plan(const moment& at) {
+    if (at.word && at.word != heard_) {
+      on_report(*at.word, at.now);
+      heard_ = at.word;
+    }
+    if (!cycle_)
+      return {};
+    if (const auto& own = at.own)
+      ego_->on_report({own->at, own->position, own->heading_rad, own->speed_mps,
+                       own->accel_mps2, own->curvature_1pm});
+    auto from = ego_->at(at.now);
+    if (!from)
+      return {};
+    from->others.stop_at_m = stop_at_m_;
+    from->others.agreed = agreed_.drive(*from, cycle_->way(), at.now);
+    const auto report =
+        others_.plan(at.now, planners::made_possible(*from), *cycle_);
+    ego_->follow(cycle_->plan());
+    if (!has_begun_ && (report.emergency || !at.others_are_known))
+      return {}; // until it would drive no worse than the vehicle itself
+    has_begun_ = true;
+    auto words = writer_.write(cycle_->plan(), at.session);
+    if (words.empty())
+      return {};
+    return {std::move(words), messages::payload::of(report)};
+  }
+
   // -- what the vehicle says ------------------------------------------------
 
   void on_report(const messages::its_pdu& message, time_point now) {
@@ -100,28 +129,12 @@ private:
 
   // Of what was planned along another way that goes on which both share.
   void begin(const world::route_ptr& way) {
-    const auto shared =
-        cycle_ ? along(*way, cycle_->plan()) : world::trajectory{};
-    cycle_.emplace(*world_, station_, provider_.clock, true, way);
+    const auto shared = cycle_ ? plan_along(*way, from_m_, cycle_->plan())
+                               : world::trajectory{};
+    cycle_.emplace(*world_, station_, stopwatch_of(provider_), true, way);
     ego_.emplace(way, from_m_);
     if (shared.is_sound())
       follow(shared);
-  }
-
-  world::trajectory along(const world::route& way,
-                          world::trajectory plan) const {
-    constexpr double same_way_m = 1;
-    auto guess_m = from_m_;
-    auto& points = plan.points;
-    for (auto p = points.begin(); p != points.end(); ++p) {
-      const auto foot = way.path().project(p->at, guess_m);
-      if (std::hypot(foot.d_m, foot.beyond_m) > same_way_m) {
-        points.erase(p, points.end());
-        break;
-      }
-      guess_m = p->s_m = foot.s_m;
-    }
-    return plan;
   }
 
   void take_over(const messages::decoded_mcm& word, double from_m,
@@ -147,25 +160,6 @@ private:
     ego_->follow(plan);
   }
 
-  // -- what it is told ------------------------------------------------------
-
-  offloading::service_output said(const planners::plan_report& report,
-                                  std::uint32_t counter) {
-    const messages::suggestion what{
-        provider_.station,
-        provider_.position,
-        station_,
-        {static_cast<std::uint16_t>(counter), ++update_}};
-    if (!messages::make_suggestion(what, cycle_->plan(), *world_->where,
-                                   waypoints_, said_))
-      return {};
-    auto message = messages::encoded(said_);
-    if (message.octets.empty())
-      return {};
-    return {messages::payload::of(std::move(message)),
-            messages::payload::of(report)};
-  }
-
   planning_world_ptr world_;
   offloading::provider_context provider_;
   station_id station_; // of the vehicle
@@ -178,11 +172,9 @@ private:
   double from_m_ = 0;                          // of the last word
   double stop_at_m_ = 0; // the end of the vehicle's authority
   agreed_word agreed_{world_};
-  std::uint16_t update_ = 0;
-  bool has_begun_ = false; // to suggest plans
-  // Room that is used again.
-  messages::etsi::mcm word_, said_;
-  std::vector<messages::maneuver_waypoint> waypoints_;
+  suggestion_writer writer_{world_->where, provider_, station_};
+  bool has_begun_ = false;   // to suggest plans
+  messages::etsi::mcm word_; // room that is used again
 };
 
 } // namespace

@@ -49,6 +49,14 @@ public:
             messages::payload::of(report)};
   }
 
+  offloading::begun_cycle begin(time_point now,
+                                const messages::service_input& input) override {
+    const auto request = input.what.as<plan_request>();
+    if (!request || !prepare(request->way))
+      return offloading::service_output{};
+    return [this, now, input] { return run(now, input); };
+  }
+
   void observe(time_point now, const messages::service_input& input) override {
     drives_by_another_ = true;
     const auto request = input.what.as<plan_request>();
@@ -102,7 +110,8 @@ private:
       return true;
     const auto way = world_->streets->find(name);
     if (way)
-      cycle_.emplace(*world_, vehicle_.station, vehicle_.clock, false, way);
+      cycle_.emplace(*world_, vehicle_.station, stopwatch_of(vehicle_), false,
+                     way);
     return way != nullptr;
   }
 

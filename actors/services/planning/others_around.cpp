@@ -33,6 +33,14 @@ bool others_around::are_known() const {
                 : perceived_->knows_surroundings_of(vehicle_);
 }
 
+void others_around::look() {
+  if (told_)
+    return;
+  auto& source = beside_ ? *beside_ : static_cast<others_source&>(*perceived_);
+  source.tracks(tracks_, vehicle_);
+  source.drives(drives_, vehicle_);
+}
+
 planners::plan_report others_around::plan(time_point now,
                                           planners::planning_input from,
                                           plan_cycle& cycle) {
@@ -45,9 +53,6 @@ planners::plan_report others_around::plan(time_point now,
     from.others = std::move(scene);
     return cycle.run_in_scene(now, from);
   }
-  auto& source = beside_ ? *beside_ : static_cast<others_source&>(*perceived_);
-  source.tracks(tracks_, vehicle_);
-  source.drives(drives_, vehicle_);
   return cycle.run(now, std::move(from), tracks_, drives_);
 }
 

@@ -31,6 +31,9 @@ public:
   /// @returns whether they are known well enough to drive by.
   bool are_known() const;
 
+  /// What is known of them now is what is planned by until the next call.
+  void look();
+
   /// Plans among them. `from.others` says of stopping and of what was agreed.
   planners::plan_report plan(time_point now, planners::planning_input from,
                              plan_cycle& cycle);

@@ -1,6 +1,7 @@
 // One planner at work, cycle by cycle, along one route.
 #include "actors/services/planning/plan_cycle.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace sofof::actors {
@@ -9,15 +10,31 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Trying harder than this helps nobody who waits; only where time is real.
+/// Trying harder than this helps nobody who waits.
 constexpr duration deadline = 2ms;
 
 } // namespace
 
+world::trajectory plan_along(const world::route& way, double from_m,
+                             world::trajectory plan) {
+  constexpr double same_way_m = 1;
+  auto guess_m = from_m;
+  auto& points = plan.points;
+  for (auto p = points.begin(); p != points.end(); ++p) {
+    const auto foot = way.path().project(p->at, guess_m);
+    if (std::hypot(foot.d_m, foot.beyond_m) > same_way_m) {
+      points.erase(p, points.end());
+      break;
+    }
+    guess_m = p->s_m = foot.s_m;
+  }
+  return plan;
+}
+
 plan_cycle::plan_cycle(const planning_world& world, station_id station,
-                       std::function<time_point()> clock, bool at_provider,
+                       std::function<time_point()> stopwatch, bool at_provider,
                        world::route_ptr way)
-    : station_{station}, clock_{std::move(clock)}, way_{std::move(way)},
+    : station_{station}, stopwatch_{std::move(stopwatch)}, way_{std::move(way)},
       planner_{world.options.make(way_, *world.roads, at_provider)},
       scene_{world.roads->lanes(), way_, world.look()} {}
 
@@ -32,10 +49,11 @@ plan_cycle::run(time_point now, planners::planning_input from,
 
 planners::plan_report
 plan_cycle::run_in_scene(time_point now, const planners::planning_input& from) {
-  const auto start = clock_();
-  const auto in_time = [&](int) { return clock_() - start < deadline; };
-  auto report = planner_->plan(now, from, plan_.empty() ? nullptr : &plan_,
-                               next_, planners::ocp::budget{in_time});
+  const auto start = stopwatch_ ? stopwatch_() : now;
+  const auto in_time = [&](int) { return stopwatch_() - start < deadline; };
+  auto report = planner_->plan(
+      now, from, plan_.empty() ? nullptr : &plan_, next_,
+      stopwatch_ ? planners::ocp::budget{in_time} : planners::ocp::budget{});
   std::swap(plan_, next_);
   return report;
 }

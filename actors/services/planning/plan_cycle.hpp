@@ -13,14 +13,27 @@
 
 namespace sofof::actors {
 
+/// @param where  offloading::vehicle_context, or that of a provider.
+/// @returns what tells a cycle how long it has taken; null where no time passes
+/// in it.
+std::function<time_point()> stopwatch_of(const auto& where) {
+  return where.real_time ? where.clock : std::function<time_point()>{};
+}
+
+/// @param from_m  About where the vehicle is on that route.
+/// @returns what of a plan along another route leads along this one, from the
+/// plan's start on.
+world::trajectory plan_along(const world::route& way, double from_m,
+                             world::trajectory plan);
+
 /// What planning in vehicles and at providers has in common: the planner, its
 /// last plan, and what it makes of the others.
 class plan_cycle {
 public:
-  /// @param clock        Of where it plans.
+  /// @param stopwatch    Where time is real, the time; else null.
   /// @param at_provider  Whether it may plan more thoroughly.
   plan_cycle(const planning_world& world, station_id station,
-             std::function<time_point()> clock, bool at_provider,
+             std::function<time_point()> stopwatch, bool at_provider,
              world::route_ptr way);
 
   const world::route_ptr& way() const { return way_; }
@@ -50,7 +63,7 @@ public:
 
 private:
   station_id station_;
-  std::function<time_point()> clock_;
+  std::function<time_point()> stopwatch_;
   world::route_ptr way_;
   std::unique_ptr<planners::trajectory_planner> planner_;
   planners::scene_interpreter scene_;

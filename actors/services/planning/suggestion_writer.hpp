@@ -1,0 +1,36 @@
+// A provider's plans for one vehicle, as MCMs suggest them.
+#pragma once
+
+#include "messages/v2x/georeference.hpp"
+#include "messages/v2x/mcm/mcm_content.hpp"
+#include "offloading/service.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace sofof::actors {
+
+/// Numbers what it suggests to one vehicle, and keeps its room.
+class suggestion_writer {
+public:
+  suggestion_writer(messages::georeference_ptr where,
+                    const offloading::provider_context& from, station_id to)
+      : where_{std::move(where)}, from_{from.station}, position_{from.position},
+        to_{to} {}
+
+  /// @param session  By whose counter the maneuver is named.
+  /// @returns the message, encoded; empty if none can say this plan.
+  messages::payload write(const world::trajectory& plan, std::uint32_t session);
+
+private:
+  messages::georeference_ptr where_;
+  station_id from_;
+  point position_;
+  station_id to_;
+  std::uint16_t update_ = 0;
+  // Room that is used again.
+  messages::etsi::mcm said_;
+  std::vector<messages::maneuver_waypoint> waypoints_;
+};
+
+} // namespace sofof::actors
