@@ -79,11 +79,30 @@ public:
       visit(items);
   }
 
+  /// Calls `visit(key, items)` likewise.
+  template <class Visitor>
+  void for_each_keyed_cell(Visitor visit) const {
+    for (const auto& [key, items] : cells_)
+      visit(key, items);
+  }
+
+  double cell_m() const { return cell_m_; }
+
+  /// @returns the key of the cell of `p` in a grid of this edge.
+  static std::uint64_t key_of(point p, double cell_m) {
+    return key_of(index(p.x_m, cell_m), index(p.y_m, cell_m));
+  }
+
 private:
+  static std::uint64_t key_of(std::int64_t x, std::int64_t y) {
+    return static_cast<std::uint64_t>(x) << 32
+           ^ (static_cast<std::uint64_t>(y) & 0xffffffff);
+  }
+
   // What is too far away for a key, or is no number, lies in one cell far off.
-  std::int64_t index(double x_m) const {
+  static std::int64_t index(double x_m, double cell_m) {
     constexpr std::int64_t farthest = 1 << 30;
-    const auto cell = x_m / cell_m_;
+    const auto cell = x_m / cell_m;
     if (!(std::abs(cell) < farthest))
       return -farthest;
     const auto whole = static_cast<std::int64_t>(cell); // towards 0
@@ -92,12 +111,12 @@ private:
 
   template <class Function>
   void for_cells(point a, point b, double margin_m, Function f) const {
-    const auto right = index(std::max(a.x_m, b.x_m) + margin_m);
-    const auto top = index(std::max(a.y_m, b.y_m) + margin_m);
-    for (auto x = index(std::min(a.x_m, b.x_m) - margin_m); x <= right; ++x)
-      for (auto y = index(std::min(a.y_m, b.y_m) - margin_m); y <= top; ++y)
-        f(static_cast<std::uint64_t>(x) << 32
-          ^ (static_cast<std::uint64_t>(y) & 0xffffffff));
+    const auto at = [this](double x_m) { return index(x_m, cell_m_); };
+    const auto right = at(std::max(a.x_m, b.x_m) + margin_m);
+    const auto top = at(std::max(a.y_m, b.y_m) + margin_m);
+    for (auto x = at(std::min(a.x_m, b.x_m) - margin_m); x <= right; ++x)
+      for (auto y = at(std::min(a.y_m, b.y_m) - margin_m); y <= top; ++y)
+        f(key_of(x, y));
   }
 
   double cell_m_;

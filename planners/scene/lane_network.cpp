@@ -84,7 +84,6 @@ lane_network::lane_network(const world::road_map& map)
         std::ranges::max(l.limits, {}, &world::speed_zone::limit_mps)
             .limit_mps);
     paths_.emplace_back(l.centre);
-    cut(paths_.size() - 1);
     auto sharpest_1pm = least_bend_1pm;
     const auto& path = paths_.back();
     for (auto s_m = 0.0; s_m < path.length_m(); ++s_m)
@@ -96,6 +95,7 @@ lane_network::lane_network(const world::road_map& map)
       ++s_m;
     bends_.push_back({s_m, std::sqrt(most_lateral_mps2 / sharpest_1pm)});
   }
+  cut();
   for (std::size_t i = 0; i < paths_.size(); ++i)
     for (const auto& e : meetings_[i]) {
       const auto from_rad =
@@ -110,19 +110,24 @@ lane_network::lane_network(const world::road_map& map)
     }
 }
 
-void lane_network::cut(std::size_t lane) {
-  assert(lane < paths_.size() && lane < half_widths_m_.size());
-  const auto& line = paths_[lane];
-  const auto count = std::ceil(line.length_m() / piece_m);
-  const auto step_m = line.length_m() / count;
-  assert(count >= 1 && step_m > 0 && step_m <= piece_m);
-  for (auto i = 0.0; i < count; ++i) {
-    const piece p{lane, (i + 0.5) * step_m, line.at(i * step_m).at,
-                  line.at((i + 1) * step_m).at};
-    cells_.add(p.from, p.to, half_widths_m_[lane],
-               static_cast<cell_grid::item>(pieces_.size()));
-    pieces_.push_back(p);
+void lane_network::cut() {
+  assert(paths_.size() == half_widths_m_.size());
+  cell_grid cells;
+  std::vector<piece> pieces;
+  for (std::size_t lane = 0; lane < paths_.size(); ++lane) {
+    const auto& line = paths_[lane];
+    const auto count = std::ceil(line.length_m() / piece_m);
+    const auto step_m = line.length_m() / count;
+    assert(count >= 1 && step_m > 0 && step_m <= piece_m);
+    for (auto i = 0.0; i < count; ++i) {
+      const piece p{lane, (i + 0.5) * step_m, line.at(i * step_m).at,
+                    line.at((i + 1) * step_m).at, half_widths_m_[lane]};
+      cells.add(p.from, p.to, p.half_width_m,
+                static_cast<cell_grid::item>(pieces.size()));
+      pieces.push_back(p);
+    }
   }
+  pieces_ = {cells, [&pieces](cell_grid::item i) { return pieces[i]; }};
 }
 
 lane_network::placements lane_network::find(const oriented_box& body) const {
@@ -141,26 +146,25 @@ lane_network::placements lane_network::find(const oriented_box& body) const {
     best = nullptr;
   };
   // The pieces of a cell come in the order of lanes.
-  cells_.for_each_near(body.centre, 0, [&](cell_grid::item i) {
-    const auto& p = pieces_[i];
+  for (const auto& p : pieces_.at(body.centre)) {
     assert(!best || best->lane <= p.lane);
     const auto ahead = p.to - p.from;
     assert(dot(ahead, ahead) > 0);
     const auto c = dot(ahead, along);
     if (c < 0 || c * c < same_way * same_way * dot(ahead, ahead))
-      return;
+      continue;
     const auto to = body.centre - p.from;
     const auto share = dot(ahead, to) / dot(ahead, ahead);
     if (share < -wedge || share > 1 + wedge)
-      return;
+      continue;
     const auto away_m = distance_to_segment_m(body.centre, p.from, p.to);
-    if (away_m > half_widths_m_[p.lane])
-      return;
+    if (away_m > p.half_width_m)
+      continue;
     if (best && best->lane != p.lane)
       settle();
     if (!best || away_m < best_m)
       best = &p, best_m = away_m;
-  });
+  }
   settle();
   return found;
 }

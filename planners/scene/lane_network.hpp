@@ -2,7 +2,7 @@
 // conflicts it drives towards.
 #pragma once
 
-#include "base/cell_grid.hpp"
+#include "base/frozen_cells.hpp"
 #include "planners/scene/track.hpp"
 #include "world/roads/conflict_side.hpp"
 #include "world/roads/path.hpp"
@@ -115,9 +115,10 @@ private:
     std::size_t lane;
     double s_m; // of its middle
     point from, to;
+    double half_width_m;
   };
   struct driver; // on its way
-  void cut(std::size_t lane);
+  void cut();
   struct bend {            // where a lane is sharpest
     double s_m, speed_mps; // and how fast anybody drives there
   };
@@ -143,8 +144,7 @@ private:
   std::vector<world::path> paths_;
   std::vector<double> half_widths_m_, limits_mps_;
   std::vector<std::vector<std::size_t>> next_, previous_; // of each lane
-  std::vector<piece> pieces_;
-  cell_grid cells_; // of the pieces, as wide as the lanes
+  frozen_cells<piece> pieces_; // as wide as the lanes
 };
 
 } // namespace sofof::planners
