@@ -10,9 +10,21 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <thread>
+#include <sched.h>
 
 namespace sofof::apps {
+
+namespace {
+
+/// @returns how many cores this process may use.
+std::size_t own_cores() {
+  cpu_set_t mine;
+  if (sched_getaffinity(0, sizeof mine, &mine) != 0)
+    return 1;
+  return static_cast<std::size_t>(std::max(1, CPU_COUNT(&mine)));
+}
+
+} // namespace
 
 void add_run(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("run", "Drive a scenario");
@@ -32,10 +44,8 @@ void add_run(CLI::App& app, int& exit_code) {
   command->footer("Example:\n  sofof run config/ulm_lehr.toml --seed 7 "
                   "--duration 1800s --out results/seven");
   command->callback([args, threads, &exit_code] {
-    args->options.threads = threads->value_or(
-        args->options.realtime
-            ? 1
-            : std::max(1U, std::thread::hardware_concurrency()));
+    args->options.threads =
+        threads->value_or(args->options.realtime ? 1 : own_cores());
     const auto s = args->what.load();
     catch_signals();
     exit_code = static_cast<int>(

@@ -2,6 +2,7 @@
 #include "base/job_pool.hpp"
 
 #include <cassert>
+#include <system_error>
 #include <utility>
 
 namespace sofof {
@@ -38,8 +39,13 @@ void job::wait() {
 }
 
 job_pool::job_pool(std::size_t helpers) {
-  for (std::size_t k = 0; k < helpers; ++k)
-    helpers_.emplace_back([this] { help(); });
+  helpers_.reserve(helpers);
+  try {
+    for (std::size_t k = 0; k < helpers; ++k)
+      helpers_.emplace_back([this] { help(); });
+  } catch (const std::system_error&) {
+    return; // the machine gives no more: those that there are do
+  }
 }
 
 job_pool::~job_pool() {

@@ -41,8 +41,8 @@ using job_ptr = std::shared_ptr<job>;
 /// the time that it takes.
 class job_pool {
 public:
-  /// @param helpers  Threads besides the one that waits for the jobs; with 0 of
-  ///                 them that computes all, each when it is begun.
+  /// @param helpers  Threads besides the caller's; fewer, if the machine does
+  ///                 not give so many. With 0 `begin` computes the job.
   explicit job_pool(std::size_t helpers);
 
   /// Jobs that no helper has begun are left to those who wait for them.
@@ -50,6 +50,9 @@ public:
 
   job_pool(const job_pool&) = delete;
   job_pool& operator=(const job_pool&) = delete;
+
+  /// Whether jobs may be computed by other threads.
+  virtual bool has_helpers() const { return !helpers_.empty(); }
 
   /// The job may be computed from now on.
   virtual void begin(job_ptr what);

@@ -107,12 +107,11 @@ limits_in_scene(const service_options& options, duration safe);
 /// For which vehicle parts of a service are made.
 struct vehicle_context {
   station_id station = 0;
-  std::function<time_point()> clock = [] {
-    return time_point{};
-  }; ///< The time.
-  /// Whether run times are real; else no time passes in a cycle, and what is
-  /// left of one that has begun must not read the clock.
-  bool real_time = false;
+  /// The time.
+  std::function<time_point()> clock = [] { return time_point{}; };
+  /// No time passes in a cycle, and what is left of one that has begun must not
+  /// read the clock.
+  bool virtual_time = false;
 };
 
 /// The longest response time under which a vehicle's scene is safe, from what
@@ -173,11 +172,10 @@ public:
 struct provider_context {
   station_id station = 0; ///< As ITS messages name it.
   point position;         ///< m, east-north.
-  std::function<time_point()> clock = [] {
-    return time_point{};
-  };                      ///< The time.
-  provider_id id = 0;     ///< Another one after each start.
-  bool real_time = false; ///< As in a vehicle.
+  /// The time.
+  std::function<time_point()> clock = [] { return time_point{}; };
+  provider_id id = 0;        ///< Another one after each start.
+  bool virtual_time = false; ///< As in a vehicle.
 };
 
 /// A service at one provider. Where time is real, functions of several sessions

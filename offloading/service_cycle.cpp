@@ -51,6 +51,14 @@ service_cycle::service_cycle(cycle_setup setup, cycle_port& port)
   assert(setup_.phase >= duration{0} && setup_.phase < setup_.period);
 }
 
+service_cycle::~service_cycle() {
+  try {
+    end_last();
+  } catch (...) {
+    return; // who ends has no use for it
+  }
+}
+
 void service_cycle::on_step(messages::lifecycle_step step, time_point now) {
   const auto next = messages::after(state_, step);
   if (!next)
@@ -59,6 +67,8 @@ void service_cycle::on_step(messages::lifecycle_step step, time_point now) {
   stop_timer();
   if (state_ == messages::lifecycle_state::active)
     begin(now);
+  if (state_ == messages::lifecycle_state::finalized)
+    end_last();
   assert(is_consistent());
 }
 
@@ -141,6 +151,9 @@ void service_cycle::run(time_point now, bool is_besides) {
     return;
   end_last();
   auto begun = setup_.function->begin(now, newest_);
+  if (auto* left = std::get_if<std::function<service_output()>>(&begun);
+      left && !setup_.pool)
+    begun = (*left)();
   const auto* made = std::get_if<service_output>(&begun);
   if (made && made->what.empty())
     return;
@@ -172,10 +185,12 @@ void service_cycle::run(time_point now, bool is_besides) {
   }
 }
 
-/// A pool computes what is left of the cycle, if there is one.
+/// The pool computes what is left of the cycle.
 void service_cycle::compute(begun_cycle cycle, coming_result& result) {
+  assert(!result.output && result.frame.what.empty());
   auto* left = std::get_if<std::function<service_output()>>(&cycle);
-  if (left && setup_.pool) {
+  assert(!left || setup_.pool);
+  if (left && setup_.pool->has_helpers()) {
     last_ = std::make_shared<coming_output>(setup_.function, std::move(*left));
     last_->begin(*setup_.pool);
     result.output = last_;
@@ -186,7 +201,8 @@ void service_cycle::compute(begun_cycle cycle, coming_result& result) {
   result.frame.about = std::move(made.about);
 }
 
-/// A function does one thing after the other.
+/// A function does one thing after the other, and lives no longer than on one
+/// thread.
 void service_cycle::end_last() const {
   if (last_)
     last_->wait();

@@ -32,8 +32,8 @@ struct cycle_setup {
   bool keeps_phase = false;
   /// Whether a cycle is run for each input, and in no period without one.
   bool per_input = false;
-  /// In virtual time: who computes cycles until they are done; null: they are
-  /// computed when they start. Results are the same.
+  /// In virtual time: who computes cycles until they are done; their results do
+  /// not depend on its helpers. Null: cycles are computed when they start.
   std::shared_ptr<job_pool> pool{};
 };
 
@@ -79,6 +79,9 @@ class service_cycle {
 public:
   /// @param port  Outlives the cycle.
   service_cycle(cycle_setup setup, cycle_port& port);
+  ~service_cycle();
+  service_cycle(const service_cycle&) = delete;
+  service_cycle& operator=(const service_cycle&) = delete;
 
   /// The life cycle takes this step; one that is not possible is ignored.
   void on_step(messages::lifecycle_step step, time_point now);

@@ -21,8 +21,8 @@ struct service_output {
 };
 
 /// The output of a cycle, or what is left to be computed of one that will most
-/// likely give a result; from what is the function's own, and from nothing that
-/// others change.
+/// likely give a result: from what is the function's own and from nothing that
+/// others change. It reads no clock, and holds nothing of actors.
 using begun_cycle =
     std::variant<service_output, std::function<service_output()>>;
 

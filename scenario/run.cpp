@@ -351,8 +351,7 @@ run_outcome finish(const played& run, const recording::run_info& info,
 std::unique_ptr<runtime> make_runtime(const run_options& options) {
   if (!options.realtime)
     return make_virtual_runtime(
-        options.threads > 1 ? std::make_shared<job_pool>(options.threads - 1)
-                            : nullptr);
+        std::make_shared<job_pool>(std::max(options.threads, 1UL) - 1));
   return options.cpu ? make_accounting_runtime() : make_wall_clock_runtime();
 }
 

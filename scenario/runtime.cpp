@@ -32,7 +32,8 @@ struct virtual_config : caf::actor_system_config {
 class virtual_runtime final : public runtime {
 public:
   explicit virtual_runtime(std::shared_ptr<job_pool> pool) {
-    scheduler_.be_helped_by(std::move(pool));
+    scheduler_.be_helped_by(pool ? std::move(pool)
+                                 : std::make_shared<job_pool>(0));
   }
 
   caf::actor_system& system() override { return system_; }

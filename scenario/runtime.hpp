@@ -68,7 +68,7 @@ public:
 };
 
 /// A discrete-event world; begins at time zero, deterministic.
-/// @param pool  Helps to compute; null: nobody does.
+/// @param pool  Whose helpers compute, too; null: there are none.
 std::unique_ptr<runtime>
 make_virtual_runtime(std::shared_ptr<job_pool> pool = nullptr);
 

@@ -21,7 +21,7 @@ duration drawn_run_time(const world::cycle_options& compute,
 
 offloading::vehicle_context context_of(const requester_actor_setup& vehicle,
                                        std::function<time_point()> clock) {
-  return {vehicle.station, std::move(clock), !vehicle.virtual_time};
+  return {vehicle.station, std::move(clock), vehicle.virtual_time};
 }
 
 offloading::cycle_setup own_function(const requester_actor_setup& vehicle,

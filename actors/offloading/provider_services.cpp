@@ -27,7 +27,7 @@ provider_services::provider_services(const provider_actor_setup& setup,
   for (const auto& what : setup.services) {
     services_.push_back(
         at_provider(what, {provider_station(number_), setup.position, clock_,
-                           id_, !virtual_time_}));
+                           id_, virtual_time_}));
     auto* listener = listener_of(*services_.back().here);
     if (listener && std::ranges::find(listeners_, listener) == listeners_.end())
       listeners_.push_back(listener); // services may share it

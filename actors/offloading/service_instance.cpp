@@ -2,7 +2,7 @@
 // offloading/service_cycle.
 #include "actors/offloading/service_instance.hpp"
 
-#include "actors/runtime/helping_scheduler.hpp"
+#include "actors/runtime/helped_scheduler.hpp"
 #include "actors/runtime/time.hpp"
 
 #include <caf/stateful_actor.hpp>

@@ -14,7 +14,6 @@
 #include <caf/sec.hpp>
 #include <caf/system_messages.hpp>
 
-#include <exception>
 #include <functional>
 #include <utility>
 
@@ -63,8 +62,8 @@ void send_made_at(Self* self, const Receiver& receiver, time_point t,
       if (auto made = make())
         to->enqueue(from, caf::make_message_id(),
                     caf::make_message(std::move(*made)), nullptr);
-    } catch (const std::exception& why) {
-      const auto failed = caf::make_error(caf::sec::runtime_error, why.what());
+    } catch (...) {
+      const caf::error failed{caf::sec::runtime_error};
       from->enqueue(nullptr, caf::make_message_id(),
                     caf::make_message(caf::exit_msg{from->address(), failed}),
                     nullptr);

@@ -1,7 +1,7 @@
 // Virtual time: a deterministic discrete-event scheduler for CAF 0.18.
 #pragma once
 
-#include "actors/runtime/helping_scheduler.hpp"
+#include "actors/runtime/helped_scheduler.hpp"
 #include "base/time.hpp"
 
 #include <caf/action.hpp>
@@ -62,7 +62,7 @@ private:
 /// Install it with `config.load<des_scheduler>()`. Nothing detached or
 /// blocking may live in its system, and only one thread may touch it.
 class des_scheduler final : public caf::scheduler::abstract_coordinator,
-                            public helping_scheduler {
+                            public helped_scheduler {
 public:
   explicit des_scheduler(caf::actor_system& sys);
 

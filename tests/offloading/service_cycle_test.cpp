@@ -7,6 +7,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -342,6 +343,7 @@ namespace {
 /// A pool in which nobody computes before somebody waits.
 struct idle_pool final : job_pool {
   idle_pool() : job_pool{0} {}
+  bool has_helpers() const override { return true; }
   void begin(job_ptr) override { ++begun; }
   int begun = 0;
 };
@@ -374,7 +376,7 @@ struct pooled_world : offloading::cycle_port {
   int finished = 0;
   std::vector<service_result> known;
   std::vector<offloading::coming_result> coming;
-  offloading::service_cycle cycle{setup(), *this};
+  std::optional<offloading::service_cycle> cycle{std::in_place, setup(), *this};
 
   offloading::cycle_setup setup() {
     offloading::cycle_setup x;
@@ -400,9 +402,9 @@ struct pooled_world : offloading::cycle_port {
 
   void feed(std::uint64_t number) {
     now += 100ms;
-    cycle.on_input({{1, 101, "echo", 7}, now, payload::of(echo{number})}, now);
+    cycle->on_input({{1, 101, "echo", 7}, now, payload::of(echo{number})}, now);
   }
-  void take(lifecycle_step step) { cycle.on_step(step, now); }
+  void take(lifecycle_step step) { cycle->on_step(step, now); }
 };
 
 } // namespace
@@ -452,4 +454,21 @@ TEST_CASE_FIXTURE(pooled_world,
   CHECK(finished == 2);
   REQUIRE(coming.size() == 1);
   CHECK(!coming[0].take());
+}
+
+TEST_CASE_FIXTURE(pooled_world, "a function dies with its cycle, also when "
+                                "nobody has computed its last one") {
+  const std::weak_ptr alive = function;
+  take(lifecycle_step::configure);
+  take(lifecycle_step::activate);
+  feed(2);
+  REQUIRE(coming.size() == 1);
+  SUBCASE("that ends in good order") {
+    take(lifecycle_step::shut_down);
+    CHECK(function->steps.size() == 1);
+  }
+  SUBCASE("that does not") {}
+  function.reset();
+  cycle.reset();
+  CHECK(alive.expired());
 }

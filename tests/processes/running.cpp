@@ -1,6 +1,7 @@
 // Runs from outside: on the wall's clock, side by side, and what they print.
 #include "tests/processes/results_reader.hpp"
 #include "tests/processes/workplace.hpp"
+#include "tests/support/files.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -91,4 +92,20 @@ TEST_CASE("records that are not wanted are not written") {
   CHECK_FALSE(fs::exists(out / "cycles.csv"));
   CHECK_FALSE(fs::exists(out / "tracks.csv"));
   CHECK(summary_of(out)["latency_ms"]["count"] > 50);
+}
+
+TEST_CASE("on any number of threads a run writes the same; on the wall clock "
+          "their number is not for the user to say") {
+  const workplace at;
+  const auto one = at.drive("one", {"--threads", "1", "--duration", "20s"});
+  const auto four = at.drive("four", {"--threads", "4", "--duration", "20s"});
+  for (const auto* file : {"cycles.csv", "tracks.csv", "events.jsonl"}) {
+    CAPTURE(file);
+    CHECK(!read_file(one / file).empty());
+    CHECK((read_file(one / file) == read_file(four / file)));
+  }
+  const auto end =
+      at.run_sofof({"run", scenario_file, "--realtime", "--threads", "4"});
+  CHECK(end.code == 2);
+  CHECK(end.err.find("--threads is of virtual time") != end.err.npos);
 }

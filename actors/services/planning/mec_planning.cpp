@@ -43,7 +43,7 @@ public:
   }
 
 private:
-  // What a cycle begins with.
+  // What a cycle takes from the world in its turn; `plan` reads nothing else.
   struct moment {
     time_point now;
     std::shared_ptr<const messages::its_pdu> word; // of the vehicle
@@ -54,7 +54,8 @@ private:
 
   moment look(time_point now, const messages::service_input& input) {
     auto word = others_.on_input(input.what, now);
-    others_.look();
+    if (has_begun_)
+      others_.look();
     return {now, std::move(word), input.session.counter,
             perceived_->told_by(station_), others_.are_known()};
   }
@@ -74,6 +75,8 @@ private:
       return {};
     from->others.stop_at_m = stop_at_m_;
     from->others.agreed = agreed_.drive(*from, cycle_->way(), at.now);
+    if (!has_begun_) // in the turn
+      others_.look();
     const auto report =
         others_.plan(at.now, planners::made_possible(*from), *cycle_);
     ego_->follow(cycle_->plan());

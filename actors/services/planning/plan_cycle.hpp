@@ -17,7 +17,7 @@ namespace sofof::actors {
 /// @returns what tells a cycle how long it has taken; null where no time passes
 /// in it.
 std::function<time_point()> stopwatch_of(const auto& where) {
-  return where.real_time ? where.clock : std::function<time_point()>{};
+  return where.virtual_time ? std::function<time_point()>{} : where.clock;
 }
 
 /// @param from_m  About where the vehicle is on that route.

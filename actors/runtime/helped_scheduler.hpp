@@ -13,11 +13,11 @@ namespace sofof::actors {
 
 /// Actors take their turns in one thread, one after the other; what they begin
 /// is computed by others meanwhile.
-class helping_scheduler {
+class helped_scheduler {
 public:
-  virtual ~helping_scheduler() = default;
+  virtual ~helped_scheduler() = default;
 
-  /// @param pool  Null: nobody helps.
+  /// @param pool  Null: cycles are computed when they start.
   void be_helped_by(std::shared_ptr<job_pool> pool) { pool_ = std::move(pool); }
 
   const std::shared_ptr<job_pool>& pool() const { return pool_; }
@@ -28,7 +28,7 @@ private:
 
 /// @returns who helps in a system; null: nobody does.
 inline std::shared_ptr<job_pool> pool_of(caf::actor_system& sys) {
-  const auto* here = dynamic_cast<helping_scheduler*>(&sys.scheduler());
+  const auto* here = dynamic_cast<helped_scheduler*>(&sys.scheduler());
   return here ? here->pool() : nullptr;
 }
 
