@@ -124,16 +124,16 @@ TEST_CASE(
     std::vector<std::string> overrides;
   };
   const std::vector<drive> drives{
-      {"ulm_lehr", {"duration=40s", "service.0.warm_standby=2s"}},
+      {"ulm_lehr", {"duration=20s", "service.0.warm_standby=2s"}},
       // So many that plans differ if their servers look around too late.
       {"cycle", {"duration=4s", "fleet.0.count=200", "compute.workers=4"}},
       {"cycle",
        {"duration=3s", "fleet.0.count=10", "record.cycles=true",
         "service.0.planner=\"al_ilqr\""}},
-      {"chain/light", {"duration=15s"}},
+      {"chain/light", {"duration=10s"}},
       {"chain/light",
-       {"duration=15s", "fleet.0.compute.scheduling=\"fixed_priority\""}},
-      {"crossings/t_junction", {"duration=15s"}},
+       {"duration=10s", "fleet.0.compute.scheduling=\"fixed_priority\""}},
+      {"crossings/t_junction", {"duration=8s"}},
   };
   for (const auto& x : drives) {
     CAPTURE(x.file);
