@@ -6,6 +6,7 @@
 #include "offloading/service.hpp"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace sofof::actors {
