@@ -10,7 +10,6 @@
 #include "actors/simulation/air.hpp"
 #include "actors/simulation/comfortable_roads.hpp"
 #include "actors/simulation/crash_injector.hpp"
-#include "actors/simulation/network_link.hpp"
 #include "actors/simulation/road.hpp"
 #include "actors/simulation/service_client.hpp"
 #include "actors/simulation/vehicle.hpp"
@@ -19,6 +18,7 @@
 #include "messages/broadcast/decode_broadcast.hpp"
 #include "scenario/channel_oracle.hpp"
 #include "scenario/placement.hpp"
+#include "scenario/vehicle_connections.hpp"
 #include "scenario/vehicle_schedule.hpp"
 
 #include <caf/exit_reason.hpp>
@@ -40,21 +40,6 @@ random_stream noise_of(const scenario_definition& s, std::string_view what) {
 
 /// So long what was said last may take to leave this process.
 constexpr duration last_words = std::chrono::milliseconds{200};
-
-/// A provider, from its start to its end, and the radio cell round it.
-struct provider_cell {
-  std::uint32_t place; // in the file
-  messages::roadside_provider_actor provider;
-  const provider_options* options;
-  std::shared_ptr<const channel::channel_profile> channel;
-
-  bool may_die() const { return options->fails_at.has_value(); }
-
-  std::shared_ptr<channel::shared_server_queue> cell_up;
-  std::shared_ptr<channel::shared_server_queue> cell_down;
-  std::shared_ptr<channel::octet_ledger> octets_up;
-  std::shared_ptr<channel::octet_ledger> octets_down;
-};
 
 /// A plan is fresh up to the longest time between two usable ones.
 /// Source: latency limit + gap limit + one planning period.
@@ -124,31 +109,6 @@ std::vector<oriented_box> obstacles(const scenario_definition& s) {
   return boxes;
 }
 
-actors::antenna connect(caf::actor_system& sys, const scenario_definition& s,
-                        station_id station, const provider_cell& at) {
-  const channel::channel_draws draws{at.channel, noise_of(s, "network"),
-                                     station, at.place, at.options->radio};
-  return {
-      actors::spawn_network_link(
-          sys, at.provider,
-          {{{draws, channel::direction::up, at.cell_up}, at.octets_up},
-           {{draws, channel::direction::down, at.cell_down}, at.octets_down},
-           std::nullopt,
-           station}),
-      at.options->position_m, at.options->range_m};
-}
-
-// Real delays take the place of modelled ones.
-actors::antenna connect(caf::actor_system& sys, const scenario_definition& s,
-                        station_id station,
-                        const process_share::remote_provider& to,
-                        const actors::provider_outbox& outbox) {
-  auto far = actors::spawn_provider_proxy(sys, station, outbox);
-  actors::introduce(outbox, station, far);
-  const auto& at = s.providers[to.place];
-  return {std::move(far), at.position_m, at.range_m};
-}
-
 provider_load measured(const provider_options& provider,
                        const channel::provider_compute& compute,
                        time_point start) {
@@ -163,14 +123,6 @@ provider_load measured(const provider_options& provider,
           meter(1),
           std::make_shared<channel::octet_ledger>(start),
           std::make_shared<channel::octet_ledger>(start)};
-}
-
-/// Actors that must live as long as the run, and what they are called.
-using names = std::vector<std::pair<caf::actor, std::string>>;
-
-template <class Handle>
-void name(names& all, const Handle& actor, std::string what) {
-  all.emplace_back(caf::actor_cast<caf::actor>(actor), std::move(what));
 }
 
 void end(const std::vector<caf::actor>& leaving, runtime& time) {
@@ -193,6 +145,7 @@ public:
   builder(caf::actor_system& sys, const scenario_definition& s,
           std::shared_ptr<messages::record_sink> sink,
           messages::etsi::its_clock clock, bool virtual_time,
+          std::function<void(const std::string&)> on_loss,
           const process_share& here)
       : sys_{sys}, s_{s}, here_{here},
         virtual_time_{virtual_time}, start_{actors::now(sys)},
@@ -203,8 +156,10 @@ public:
               return messages::decode(message, *where, now);
             }} {
     services_ = services_in(s.world, {});
+    if (on_loss)
+      world_.supervisor = actors::spawn_supervisor(sys, std::move(on_loss));
     world_.recorder = actors::spawn_recorder(sys_, std::move(sink));
-    name(watched_, world_.recorder, "the recorder");
+    watch(world_.recorder, "the recorder");
     world_.has_peers = here.serves_others || !here.remotes.empty();
   }
 
@@ -218,15 +173,22 @@ public:
     std::erase_if(placed,
                   [&](const auto& v) { return !here_.drives(v.station); });
     add_road(placed);
+    add_antennas();
     const auto future = virtual_time_ ? foresee(s_) : nullptr;
     for (const auto& v : placed)
       add_vehicle(v, future ? future(v.station) : nullptr);
     return std::move(world_);
   }
 
-  names& watched() { return watched_; }
-
 private:
+  /// It must live as long as the run.
+  template <class Handle>
+  void watch(const Handle& actor, const std::string& name) {
+    if (world_.supervisor)
+      actors::watch(world_.supervisor, caf::actor_cast<caf::actor>(actor),
+                    name);
+  }
+
   /// @param streets  What is known of them where the services run.
   /// @param beside   The sensors that tell what they see there.
   std::vector<offloading::service>
@@ -262,8 +224,7 @@ private:
           sys_, caf::actor_cast<caf::actor>(world_.providers.back()),
           *options.fails_at));
     else
-      name(watched_, world_.providers.back(),
-           fmt::format("provider {}", options.name));
+      watch(world_.providers.back(), fmt::format("provider {}", options.name));
     // It lives from the start on, but nothing reaches it.
     if (options.returns_at)
       start(number, here_.start + 1,
@@ -315,9 +276,9 @@ private:
 
   void add_connection(const process_share::remote_provider& to) {
     world_.connections.push_back(to.spawn_provider_connection(world_.recorder));
-    name(watched_, world_.connections.back(),
-         fmt::format("the connection to provider {}",
-                     s_.providers[to.place].name));
+    watch(world_.connections.back(),
+          fmt::format("the connection to provider {}",
+                      s_.providers[to.place].name));
   }
 
   // -- vehicles -------------------------------------------------------------
@@ -330,10 +291,10 @@ private:
         sys_, {s_.world, std::move(ways), world::vehicle_params{}, s_.sensors,
                noise_of(s_, "sensors"), sensors_beside(s_, cells_, here_),
                obstacles(s_), world_.recorder, s_.traffic.grants_crossings()});
-    name(watched_, world_.road, "the road");
+    watch(world_.road, "the road");
     world_.air =
         actors::spawn_air(sys_, {s_.network.channel, noise_of(s_, "air"), 300});
-    name(watched_, world_.air, "the air");
+    watch(world_.air, "the air");
   }
 
   void add_vehicle(const placed_vehicle& v,
@@ -357,37 +318,57 @@ private:
     if (fleet.connected) {
       setup.v2x = s_.v2x;
       setup.air = world_.air;
-      setup.antennas = connect_all(v.station, !fleet.fails_at);
+      setup.antennas = antennas_;
+      setup.connect = connect(v.station, !fleet.fails_at);
     }
-    for (const auto& a : setup.antennas)
-      world_.links.push_back(a.link);
     setup.road = world_.road;
     setup.recorder = world_.recorder;
     setup.spawn_requester =
         requester_maker(v, setup.car.road, std::move(future));
     world_.vehicles.push_back(actors::spawn_vehicle(sys_, std::move(setup)));
-    name(watched_, world_.vehicles.back(),
-         fmt::format("vehicle {}", v.station));
+    watch(world_.vehicles.back(), fmt::format("vehicle {}", v.station));
+  }
+
+  // In the order of their links: those of this process, then the others.
+  void add_antennas() {
+    connections_ = std::make_shared<const vehicle_connections>(
+        sys_, noise_of(s_, "network"), start_, std::move(cells_),
+        world_.supervisor);
+    std::vector<actors::antenna> all;
+    const auto add = [&](const provider_options& at) {
+      all.push_back({at.position_m, at.range_m});
+    };
+    for (const auto& cell : connections_->cells())
+      add(*cell.options);
+    for (const auto& to : here_.remotes)
+      add(s_.providers[to.place]);
+    antennas_ =
+        std::make_shared<const std::vector<actors::antenna>>(std::move(all));
   }
 
   /// @param lives  Whether the vehicle's computer does to the end.
-  std::vector<actors::antenna> connect_all(station_id station, bool lives) {
-    std::vector<actors::antenna> all;
-    const auto watch = [&](const actors::antenna& a) {
-      name(watched_, a.link, fmt::format("a link of vehicle {}", station));
+  std::function<messages::link_actor(std::size_t)> connect(station_id station,
+                                                           bool lives) {
+    return [here = connections_, station, lives,
+            far = connect_remotes(station, lives)](std::size_t to) {
+      const auto count = here->cells().size();
+      return to < count ? here->connect(station, to, lives) : far[to - count];
     };
-    for (const auto& at : cells_) {
-      all.push_back(connect(sys_, s_, station, at));
-      if (lives && !at.may_die())
-        watch(all.back());
-    }
-    for (std::size_t k = 0; k < here_.remotes.size(); ++k) {
-      all.push_back(
-          connect(sys_, s_, station, here_.remotes[k], world_.connections[k]));
+  }
+
+  // Real delays take the place of modelled ones.
+  std::vector<messages::link_actor> connect_remotes(station_id station,
+                                                    bool lives) {
+    std::vector<messages::link_actor> proxies;
+    for (const auto& outbox : world_.connections) {
+      auto far = actors::spawn_provider_proxy(sys_, station, outbox);
+      actors::introduce(outbox, station, far);
       if (lives)
-        watch(all.back());
+        watch(far, fmt::format("a link of vehicle {}", station));
+      world_.proxies.push_back(far);
+      proxies.push_back(std::move(far));
     }
-    return all;
+    return proxies;
   }
 
   // The vehicle calls it later, from its own thread: nothing is borrowed.
@@ -452,9 +433,10 @@ private:
   std::function<messages::broadcast(const messages::its_pdu&, time_point)>
       decode_;
   std::vector<offloading::service> services_; // as in the scenario
-  std::vector<provider_cell> cells_;
+  std::vector<provider_cell> cells_;          // until the vehicles are added
+  std::shared_ptr<const vehicle_connections> connections_;
+  std::shared_ptr<const std::vector<actors::antenna>> antennas_;
   actors::comfortable_roads roads_;
-  names watched_;
   world_actors world_;
 };
 
@@ -465,12 +447,9 @@ world_actors build(caf::actor_system& sys, const scenario_definition& s,
                    messages::etsi::its_clock clock, bool virtual_time,
                    std::function<void(const std::string&)> on_loss,
                    const process_share& here) {
-  builder all{sys, s, std::move(sink), clock, virtual_time, here};
-  auto world = all.build();
-  if (on_loss)
-    world.supervisor = actors::spawn_supervisor(sys, std::move(all.watched()),
-                                                std::move(on_loss));
-  return world;
+  return builder{
+      sys, s, std::move(sink), clock, virtual_time, std::move(on_loss), here}
+      .build();
 }
 
 void dismiss(const world_actors& actors, runtime& time) {
@@ -481,7 +460,7 @@ void dismiss(const world_actors& actors, runtime& time) {
   end(actors.providers, time);
   if (actors.has_peers)
     time.run_until(time.now() + last_words); // they are under way
-  end(actors.links, time);
+  end(actors.proxies, time);
   end(actors.connections, time);
   end(std::vector{actors.air}, time);
   end(std::vector{actors.road}, time);

@@ -47,14 +47,15 @@ struct provider_load {
   std::shared_ptr<channel::octet_ledger> octets_up, octets_down;
 };
 
-/// Everything that lives in a run, in the order in which it was spawned.
+/// Everything that lives in a run, but for what vehicles make themselves: their
+/// requesters, and links to providers of this process.
 struct world_actors {
   messages::recorder_actor recorder;
   messages::road_actor road;
   messages::air_actor air;
   std::vector<messages::provider_actor> providers;
-  std::vector<messages::link_actor> links;
   std::vector<actors::provider_outbox> connections;
+  std::vector<messages::link_actor> proxies; ///< To the far ends of these.
   std::vector<messages::vehicle_actor> vehicles;
   std::vector<caf::actor> crash_injectors;
   caf::actor supervisor;
@@ -63,8 +64,7 @@ struct world_actors {
 };
 
 /// Spawns the actors of a scenario, or of a part of it. Each provider gets the
-/// id of its place in the file, counting from 1; each vehicle a link to each
-/// provider. A provider that dies and starts again is two, the second with an
+/// id of its place in the file, counting from 1. A provider that dies and starts again is two, the second with an
 /// id of its own.
 /// @param s     Loaded, so that everything in it is valid.
 /// @param sink  Takes all records.

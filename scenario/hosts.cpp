@@ -331,9 +331,8 @@ run_outcome provide(const scenario_definition& s, const provide_options& what,
     time->filter(std::move(filter));
     const auto acceptor =
         actors::spawn_acceptor(time->system(), std::move(setup));
-    actors::watch_as_well(actors.supervisor,
-                          caf::actor_cast<caf::actor>(acceptor),
-                          "the acceptor");
+    actors::watch(actors.supervisor, caf::actor_cast<caf::actor>(acceptor),
+                  "the acceptor");
     const auto at =
         listener.open(*time, acceptor, [board](const std::string& why) {
           board->log("refused: " + why);

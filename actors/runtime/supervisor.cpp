@@ -21,38 +21,29 @@ struct supervisor_state {
 
 using supervisor = caf::stateful_actor<supervisor_state>;
 
-void watch(supervisor* self, const caf::actor& actor, const std::string& name) {
-  self->state.names.emplace(actor.address(), name);
-  self->monitor(actor);
-}
-
 caf::behavior
 supervise(supervisor* self,
-          const std::vector<std::pair<caf::actor, std::string>>& watched,
           const std::function<void(const std::string&)>& on_loss) {
-  for (const auto& [actor, name] : watched)
-    watch(self, actor, name);
   self->set_down_handler([self, on_loss](const caf::down_msg& down) {
     if (down.reason != caf::exit_reason::user_shutdown)
       on_loss(fmt::format("{} has died: {}", self->state.names.at(down.source),
                           to_string(down.reason)));
   });
   return {[self](const caf::actor& actor, const std::string& name) {
-    watch(self, actor, name);
+    self->state.names.emplace(actor.address(), name);
+    self->monitor(actor);
   }};
 }
 
 } // namespace
 
-caf::actor
-spawn_supervisor(caf::actor_system& sys,
-                 std::vector<std::pair<caf::actor, std::string>> watched,
-                 std::function<void(const std::string&)> on_loss) {
-  return sys.spawn(supervise, std::move(watched), std::move(on_loss));
+caf::actor spawn_supervisor(caf::actor_system& sys,
+                            std::function<void(const std::string&)> on_loss) {
+  return sys.spawn(supervise, std::move(on_loss));
 }
 
-void watch_as_well(const caf::actor& supervisor, const caf::actor& actor,
-                   const std::string& name) {
+void watch(const caf::actor& supervisor, const caf::actor& actor,
+           const std::string& name) {
   caf::anon_send(supervisor, actor, name);
 }
 

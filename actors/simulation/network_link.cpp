@@ -145,8 +145,8 @@ link(messages::link_actor::stateful_pointer<link_state> self,
   state.self = self;
   state.far = std::move(far);
   state.setup.emplace(std::move(setup));
-  state.setup->up.air.begin(now(self));
-  state.setup->down.air.begin(now(self));
+  state.setup->up.air.begin(state.setup->run_begins);
+  state.setup->down.air.begin(state.setup->run_begins);
   self->monitor(state.far);
   self->set_down_handler([self](const caf::down_msg& down) {
     self->quit(down.reason ? down.reason : caf::exit_reason::user_shutdown);

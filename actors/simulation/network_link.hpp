@@ -27,6 +27,7 @@ struct link_setup {
   link_way down;
   std::optional<channel::link_faults> faults; ///< For tests.
   station_id station = 0; ///< The vehicle, by which disturbances are counted.
+  time_point run_begins{}; ///< Outages are counted from here.
 };
 
 /// A proxy that looks like the far end to both sides: it delays and loses

@@ -9,6 +9,7 @@
 
 #include <caf/actor_system.hpp>
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -16,10 +17,9 @@
 
 namespace sofof::actors {
 
-/// A provider that hears this vehicle while it is near enough.
+/// By which a provider hears vehicles while they are near enough.
 struct antenna {
-  messages::link_actor link;
-  point position; ///< Of the provider, m, east-north.
+  point position; ///< m, east-north.
   double range_m = 0;
 };
 
@@ -35,7 +35,11 @@ struct vehicle_setup {
   /// What it tells everybody; nothing if it is not connected.
   std::optional<messages::v2x_options> v2x;
   messages::georeference_ptr where; ///< Where the map is on Earth.
-  std::vector<antenna> antennas;
+  /// Of all providers, shared by all vehicles; null: there are none.
+  std::shared_ptr<const std::vector<antenna>> antennas;
+  /// @returns the link to the provider of one of these, by its number. Asked
+  /// for once, when the vehicle is in range for the first time.
+  std::function<messages::link_actor(std::size_t)> connect;
   messages::air_actor air; ///< Null: other vehicles do not hear it.
   messages::road_actor road;
   messages::recorder_actor recorder;

@@ -53,9 +53,20 @@ void vehicle_links::send(const std::optional<messages::its_pdu>& message,
   if (!message || message->octets.empty())
     return;
   record_on_air(self_, setup_.recorder, *message);
-  for (const auto& a : setup_.antennas)
-    if (distance_m(from, a.position) <= a.range_m)
-      self_->send(a.link, *message, messages::requester_actor{requester});
+  if (!setup_.antennas)
+    return;
+  for (std::size_t k = 0; k < setup_.antennas->size(); ++k) {
+    const auto& antenna = (*setup_.antennas)[k];
+    if (distance_m(from, antenna.position) <= antenna.range_m)
+      self_->send(link(k), *message, messages::requester_actor{requester});
+  }
+}
+
+const messages::link_actor& vehicle_links::link(std::size_t antenna) {
+  auto& made = links_[antenna];
+  if (!made)
+    made = setup_.connect(antenna);
+  return made;
 }
 
 void vehicle_links::say(const messages::its_pdu& word, point from,

@@ -4,6 +4,7 @@
 #include "actors/simulation/v2x_broadcast.hpp"
 #include "actors/simulation/vehicle.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -72,12 +73,14 @@ public:
 
 private:
   void join_stages();
+  const messages::link_actor& link(std::size_t antenna);
   void send(const std::optional<messages::its_pdu>& message, point from,
             const messages::onboard_requester_actor& requester);
 
   vehicle_impl::pointer self_;
   const vehicle_setup& setup_;
   std::optional<v2x_broadcast> due_; // none if it is not connected
+  std::map<std::size_t, messages::link_actor> links_; // by antenna, as made
   messages::crossing_driver_actor agent_;
   messages::requester_manager_actor planner_;
   std::map<std::uint32_t, messages::chain_stage_actor> stages_;

@@ -31,6 +31,7 @@ struct driving_world : virtual_world {
   probe<messages::link_actor> distant = listen<messages::link_actor>();
   probe<messages::requester_manager_actor> manager =
       listen<messages::requester_manager_actor>();
+  std::vector<std::size_t> connected; // antennas, in order
   const double start_speed_mps;
   const std::optional<messages::v2x_options> v2x;
   const double range_m; // of both antennas
@@ -73,8 +74,12 @@ struct driving_world : virtual_world {
     setup.appears_after = appears_after;
     setup.v2x = v2x;
     setup.where = in_ulm();
-    setup.antennas = {{near.handle, {150, 0}, range_m},
-                      {distant.handle, {500, 0}, range_m}};
+    setup.antennas = std::make_shared<const std::vector<actors::antenna>>(
+        std::vector<actors::antenna>{{{150, 0}, range_m}, {{500, 0}, range_m}});
+    setup.connect = [this](std::size_t antenna) {
+      connected.push_back(antenna);
+      return antenna == 0 ? near.handle : distant.handle;
+    };
     setup.road = road.handle;
     setup.recorder = recorder.handle;
     setup.spawn_requester = [this](const messages::vehicle_actor&) {

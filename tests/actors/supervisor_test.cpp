@@ -20,12 +20,14 @@ struct supervised_world : virtual_world {
   probe<recorder_actor> recorder = listen<recorder_actor>();
   std::vector<std::string> lost;
   caf::actor supervisor = own(spawn_supervisor(
-      system(),
-      {{caf::actor_cast<caf::actor>(road.handle), "the road"},
-       {caf::actor_cast<caf::actor>(recorder.handle), "the recorder"}},
-      [this](const std::string& what) { lost.push_back(what); }));
+      system(), [this](const std::string& what) { lost.push_back(what); }));
 
-  supervised_world() { settle(); }
+  supervised_world() {
+    watch(supervisor, caf::actor_cast<caf::actor>(road.handle), "the road");
+    watch(supervisor, caf::actor_cast<caf::actor>(recorder.handle),
+          "the recorder");
+    settle();
+  }
 };
 
 } // namespace
@@ -42,11 +44,19 @@ TEST_CASE_FIXTURE(supervised_world, "actors that are dismissed have not died") {
   CHECK(lost.empty());
 }
 
+TEST_CASE_FIXTURE(supervised_world, "it says so of who had died before") {
+  const auto late = listen<vehicle_endpoint_actor>();
+  kill(late.handle);
+  watch(supervisor, caf::actor_cast<caf::actor>(late.handle), "the connection");
+  settle();
+  REQUIRE(lost.size() == 1);
+  CHECK(lost.front().find("the connection has died") == 0);
+}
+
 TEST_CASE_FIXTURE(supervised_world,
                   "the supervisor also watches who comes later") {
   const auto late = listen<vehicle_endpoint_actor>();
-  watch_as_well(supervisor, caf::actor_cast<caf::actor>(late.handle),
-                "the connection");
+  watch(supervisor, caf::actor_cast<caf::actor>(late.handle), "the connection");
   settle();
   kill(late.handle);
   REQUIRE(lost.size() == 1);

@@ -15,6 +15,7 @@ TEST_CASE_FIXTURE(driving_world,
   run_for(10s);
   CHECK(messages_in<etsi::cam>(near->all<its_pdu>()).size() == 10);
   CHECK(distant->entries().empty());
+  CHECK(connected == std::vector<std::size_t>{0});
   CHECK(near->seconds<requester_actor>().front()
         == requester_actor{requester.handle});
 }
@@ -139,6 +140,7 @@ TEST_CASE_FIXTURE(driving_world,
                   "driving from one provider to the next changes who hears") {
   drive(45s);
   CHECK(last_report().s_m > 450);
+  CHECK(connected == std::vector<std::size_t>{0, 1}); // each as it was reached
   near->clear();
   distant->clear();
   drive(3s);
