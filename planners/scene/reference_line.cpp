@@ -33,42 +33,46 @@ reference_line::reference_line(world::route_ptr way,
   assert(step_m > 0 && step_m <= max_step_m);
   steps_per_m_ = 1 / step_m;
   laps_per_m_ = 1 / length_m;
+  sections_at_.reserve(static_cast<std::size_t>(steps) + 1);
   for (long i = 0; i <= steps; ++i) {
     const auto s = static_cast<double>(i) * step_m;
-    table_.push_back({way_->path().at(s).curvature_1pm,
-                      std::min(way_->limit_mps(s), seen_limit_mps(most_mps, s)),
-                      way_->half_width_m(s)});
+    const auto road = way_->bounds_at(s);
+    const section here{std::min(road.limit_mps, seen_limit_mps(most_mps, s)),
+                       road.half_width_m};
+    if (sections_.empty() || here != sections_.back())
+      sections_.push_back(here);
+    sections_at_.push_back(static_cast<std::uint32_t>(sections_.size() - 1));
   }
+  sections_.shrink_to_fit();
 }
 
-reference_line::place reference_line::find(double s_m) const {
-  assert(table_.size() >= 2);
+std::pair<const reference_line::section&, const reference_line::section&>
+reference_line::around(double s_m) const {
+  assert(sections_at_.size() >= 2);
   const auto length_m = way_->length_m();
   if (way_->closed())
     s_m -= std::floor(s_m * laps_per_m_) * length_m;
   const auto steps = std::clamp(s_m, 0.0, length_m) * steps_per_m_;
-  // What is no number stays none, in the share.
-  const auto i =
-      steps >= 0 ? std::min(static_cast<std::size_t>(steps), table_.size() - 2)
-                 : 0;
+  const auto i = steps >= 0 ? std::min(static_cast<std::size_t>(steps),
+                                       sections_at_.size() - 2)
+                            : 0; // what is no number, too
   assert(!(steps < static_cast<double>(i)));
-  return {table_[i], table_[i + 1], steps - static_cast<double>(i)};
+  return {sections_[sections_at_[i]], sections_[sections_at_[i + 1]]};
 }
 
 double reference_line::curvature_1pm(double s_m) const {
-  const auto p = find(s_m);
-  return p.low.curvature_1pm
-         + p.share * (p.high.curvature_1pm - p.low.curvature_1pm);
+  return std::isfinite(s_m) ? way_->path().curvature_1pm(s_m)
+                            : std::numeric_limits<double>::quiet_NaN();
 }
 
 double reference_line::limit_mps(double s_m) const {
-  const auto p = find(s_m);
-  return std::min(p.low.limit_mps, p.high.limit_mps);
+  const auto [low, high] = around(s_m);
+  return std::min(low.limit_mps, high.limit_mps);
 }
 
 double reference_line::half_width_m(double s_m) const {
-  const auto p = find(s_m);
-  return std::min(p.low.half_width_m, p.high.half_width_m);
+  const auto [low, high] = around(s_m);
+  return std::min(low.half_width_m, high.half_width_m);
 }
 
 // The curvature counts once more the further it lies back: Simpson's rule.

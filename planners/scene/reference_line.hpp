@@ -3,7 +3,9 @@
 
 #include "world/roads/route.hpp"
 
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace sofof::planners {
@@ -12,8 +14,8 @@ namespace sofof::planners {
 /// without any.
 double seen_limit_mps(std::span<const double> most_mps, double s_m);
 
-/// The centre line of a route, tabulated once. Arc lengths are those of the
-/// route: closed routes wrap, open ones clamp.
+/// The centre line of a route, and its bounds, tabulated once. Arc lengths are
+/// those of the route: closed routes wrap, open ones clamp.
 class reference_line {
 public:
   /// @param way       Kept.
@@ -24,7 +26,7 @@ public:
 
   const world::route& way() const { return *way_; }
 
-  /// Linear between samples, 1/m.
+  /// 1/m; what is not finite has none (NaN).
   double curvature_1pm(double s_m) const;
 
   /// The lowest speed limit within a sample's step, m/s.
@@ -38,20 +40,18 @@ public:
   double bow_m(double s_m, double ahead_m) const;
 
 private:
-  struct sample {
-    double curvature_1pm = 0;
+  struct section {
     double limit_mps = 0;
     double half_width_m = 0;
+
+    bool operator==(const section&) const = default;
   };
-  struct place {
-    const sample& low;
-    const sample& high;
-    double share;
-  };
-  place find(double s_m) const;
+  std::pair<const section&, const section&> around(double s_m) const;
 
   world::route_ptr way_;
-  std::vector<sample> table_; // equidistant, both ends included
+  std::vector<section> sections_; // each unlike the one before
+  // Of samples, equidistant, both ends included.
+  std::vector<std::uint32_t> sections_at_;
   double steps_per_m_ = 0;
   double laps_per_m_ = 0;
 };

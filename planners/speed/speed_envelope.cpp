@@ -120,6 +120,7 @@ speed_envelope::speed_envelope(const world::route& way,
   assert(u.size() == (closed_ ? steps : steps + 1));
   u = rounded(u, step_m, decel / jerk);
 
+  table_.reserve(static_cast<std::size_t>(steps) + 1);
   for (long i = 0; i <= steps; ++i)
     table_.push_back(
         {std::sqrt(2 * u[i]), (u[i + 1] - u[i - 1]) / (2 * step_m)});

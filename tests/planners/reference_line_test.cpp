@@ -1,4 +1,4 @@
-// A route as tables of curvature, limit and width.
+// A route by arc length: curvature, limit and width.
 #include "planners/scene/reference_line.hpp"
 
 #include "tests/planners/random_road.hpp"
@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 using namespace sofof;
 using namespace sofof::planners;
@@ -41,7 +42,7 @@ TEST_CASE("an open line stays as at its ends") {
   CHECK(line.half_width_m(-1) == line.half_width_m(0));
 }
 
-TEST_CASE("the table has the bends of the route") {
+TEST_CASE("the line has the bends of the route") {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     const auto way = test::random_road(seed);
     const reference_line line{way};
@@ -49,8 +50,20 @@ TEST_CASE("the table has the bends of the route") {
     for (auto i = 0; i < 300; ++i) {
       const auto s = dice.between(0, way->length_m());
       CAPTURE(s);
-      CHECK(std::abs(line.curvature_1pm(s) - way->path().at(s).curvature_1pm)
-            < 1e-3);
+      CHECK(line.curvature_1pm(s) == way->path().at(s).curvature_1pm);
+    }
+  }
+}
+
+TEST_CASE("a place that is no number has no bend, but it has bounds") {
+  const auto none = std::numeric_limits<double>::quiet_NaN();
+  const auto far = std::numeric_limits<double>::infinity();
+  for (const auto& way : {test::random_road(1), test::oval(town)}) {
+    const reference_line line{way};
+    for (const auto s : {none, far, -far}) {
+      CHECK(std::isnan(line.curvature_1pm(s)));
+      CHECK(line.limit_mps(s) > 0);
+      CHECK(line.half_width_m(s) > 0);
     }
   }
 }

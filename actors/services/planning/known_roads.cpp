@@ -13,6 +13,8 @@ known_roads::known_roads(const world::road_map& map,
 
 planners::route_profile_ptr known_roads::profile(const world::route_ptr& way,
                                                  bool at_provider) {
+  // Without sensors beside the road a provider sees what vehicles see.
+  at_provider = at_provider && !eyes_.roadside.empty();
   const std::lock_guard lock{mutex_};
   auto& profile = profiles_[{way.get(), at_provider}];
   if (!profile) {
