@@ -1,6 +1,7 @@
 // What the tracks on the road mean to one vehicle on its route.
 #include "planners/scene/scene_interpreter.hpp"
 
+#include "base/thread_room.hpp"
 #include "planners/scene/told_scene.hpp"
 
 #include <algorithm>
@@ -104,6 +105,7 @@ void scene_interpreter::describe(time_point now, const own_place& me,
   out.beside.clear();
   out.yields_m.clear();
   out.keep_free.clear();
+  const thread_room lent{others_, near_, coming_};
   gather(now, me, tracks);
   const auto rear_m = me.s_m - params_.car.rear_m;
   const auto front_m = me.s_m + params_.car.front_m;

@@ -123,6 +123,7 @@ private:
   std::vector<point> beads_; // along the way, equidistant
   double bead_m_ = 0;
   double half_lane_m_ = 0; // at its widest
+  // Of one call, like `near_` and `coming_`.
   std::vector<other_body> others_;
   std::size_t seen_ = 0; // of them; the rest is where those who cut in will be
   std::vector<near> near_;

@@ -53,7 +53,9 @@ planners::plan_report others_around::plan(time_point now,
     from.others = std::move(scene);
     return cycle.run_in_scene(now, from);
   }
-  return cycle.run(now, std::move(from), tracks_, drives_);
+  const auto tracks = std::exchange(tracks_, {});
+  const auto drives = std::exchange(drives_, {});
+  return cycle.run(now, std::move(from), tracks, drives);
 }
 
 } // namespace sofof::actors

@@ -31,7 +31,7 @@ public:
   /// @returns whether they are known well enough to drive by.
   bool are_known() const;
 
-  /// What is known of them now is what is planned by until the next call.
+  /// What is known of them now is what the next plan is made by.
   void look();
 
   /// Plans among them. `from.others` says of stopping and of what was agreed.
@@ -46,7 +46,7 @@ private:
   std::shared_ptr<const messages::its_pdus> heard_;
   std::optional<decoded_scene> told_;
   std::shared_ptr<others_source> beside_;
-  // Room that is used again.
+  // From a look to the plan: of many vehicles, few are planned for at a time.
   std::vector<planners::track> tracks_;
   std::vector<planners::told_drive> drives_;
 };
