@@ -183,7 +183,7 @@ TEST_CASE(
       points.push_back({radius_m * std::sin(a), radius_m * (1 - std::cos(a))});
     return std::make_shared<const world::route>(
         "bend", std::vector{world::lane{"bend", points, 2.5, {{0, 10}}, {}, 0}},
-        std::vector<std::size_t>{0}, false);
+        std::vector<std::size_t>{0}, false, world::lane_index{});
   };
   test::dice dice{21};
   auto held = 0;

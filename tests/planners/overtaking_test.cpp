@@ -31,7 +31,8 @@ world::route_ptr street(bool two_ways = true) {
               0,
               two_ways ? "east" : ""};
   return std::make_shared<const world::route>(
-      "east", lanes, std::vector<std::size_t>{0}, false);
+      "east", lanes, std::vector<std::size_t>{0}, false,
+      world::lane_index{{"west", 1}});
 }
 
 const auto way = street();

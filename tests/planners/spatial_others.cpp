@@ -26,8 +26,8 @@ route_ptr wide_street(double half_width_m) {
   test::append_line(lanes[0].centre, {0, 0}, {600, 0});
   lanes[0].centre.push_back({600, 0});
   lanes[0].limits = {{0, 13.9}};
-  return std::make_shared<const route>("wide", lanes,
-                                       std::vector<std::size_t>{0}, false);
+  return std::make_shared<const route>(
+      "wide", lanes, std::vector<std::size_t>{0}, false, world::lane_index{});
 }
 
 /// On a road due east.

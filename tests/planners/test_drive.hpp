@@ -27,7 +27,7 @@ inline world::route_ptr make_route(std::vector<point> points,
   lanes[0].centre = std::move(points);
   lanes[0].limits = std::move(limits);
   return std::make_shared<const world::route>(
-      "test", lanes, std::vector<std::size_t>{0}, closed);
+      "test", lanes, std::vector<std::size_t>{0}, closed, world::lane_index{});
 }
 
 inline void append_line(std::vector<point>& to, point a, point b) {
