@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace sofof::planners {
 
@@ -75,11 +76,9 @@ double decel_before(double way_m, double speed_mps) {
 
 } // namespace
 
-crossing_predictor::crossing_predictor(
-    std::shared_ptr<const lane_network> lanes, world::route_ptr way,
-    double corridor_m, double foresight_s)
-    : lanes_{std::move(lanes)}, way_{std::move(way), lanes_->meetings()},
-      corridor_m_{corridor_m}, foresight_s_{foresight_s} {
+crossing_predictor::crossing_predictor(known_way_ptr way, double corridor_m,
+                                       double foresight_s)
+    : way_{std::move(way)}, corridor_m_{corridor_m}, foresight_s_{foresight_s} {
   assert(corridor_m_ > 0 && foresight_s_ >= 0);
 }
 
@@ -110,7 +109,7 @@ void crossing_predictor::judge(const crossing_viewer& me,
                                std::vector<double>& yields) {
   assert(me.rear_m < me.front_m);
   for (const auto& own : zones_)
-    if (lanes_->rank(own.on.other_side()) < own.on.rank)
+    if (way_->lanes->rank(own.on.other_side()) < own.on.rank)
       yields.push_back(own.on.from_m);
   foresee(others);
   for (const auto& own : zones_)
@@ -236,8 +235,8 @@ bool crossing_predictor::gives_way(const crossing_viewer& me, const track& x,
 /// left.
 bool crossing_predictor::would_turn_across(const conflict_visit& when,
                                            const own_zone& own) const {
-  const auto theirs = lanes_->course_of(when.side);
-  const auto ours = lanes_->course_of(own.on.side);
+  const auto theirs = way_->lanes->course_of(when.side);
+  const auto ours = way_->lanes->course_of(own.on.side);
   return std::cos(theirs.from_rad - ours.from_rad) < -towards_cosine
          && theirs.turn_rad > turning_rad && ours.turn_rad <= turning_rad;
 }
@@ -251,11 +250,11 @@ bool crossing_predictor::has_to_give_way(const crossing_viewer& me,
   assert(!me.station || x.station != me.station); // not the own one
   if (when.rank != own.on.rank)
     return when.rank > own.on.rank;
-  if (lanes_->is_on_roundabout(when.side)
-      != lanes_->is_on_roundabout(own.on.side))
-    return lanes_->is_on_roundabout(own.on.side);
-  const auto theirs = lanes_->course_of(when.side);
-  const auto ours = lanes_->course_of(own.on.side);
+  if (way_->lanes->is_on_roundabout(when.side)
+      != way_->lanes->is_on_roundabout(own.on.side))
+    return way_->lanes->is_on_roundabout(own.on.side);
+  const auto theirs = way_->lanes->course_of(when.side);
+  const auto ours = way_->lanes->course_of(own.on.side);
   const auto sine = std::sin(theirs.from_rad - ours.from_rad);
   if (std::abs(sine) > across_sine)
     return sine < 0; // it comes from the left
@@ -268,16 +267,16 @@ bool crossing_predictor::has_to_give_way(const crossing_viewer& me,
 }
 
 void crossing_predictor::find_zones(double from_m, double to_m) {
-  assert(way_.longest_zone_m() >= 0);
+  assert(way_->legs.longest_zone_m() >= 0);
   zones_.clear();
-  way_.for_zones(from_m - way_.longest_zone_m(), to_m,
-                 [&](const world::zone& z) {
-                   const auto middle_m = (z.from_m + z.to_m) / 2;
-                   assert(z.from_m <= z.to_m && z.from_m < to_m);
-                   if (z.to_m > from_m)
-                     zones_.push_back({z, way_.on()->path().at(middle_m)});
-                   return true;
-                 });
+  way_->legs.for_zones(
+      from_m - way_->legs.longest_zone_m(), to_m, [&](const world::zone& z) {
+        const auto middle_m = (z.from_m + z.to_m) / 2;
+        assert(z.from_m <= z.to_m && z.from_m < to_m);
+        if (z.to_m > from_m)
+          zones_.push_back({z, way_->route()->path().at(middle_m)});
+        return true;
+      });
 }
 
 /// Finds out when the others reach conflicts, if they may reach the own ones.
@@ -297,7 +296,7 @@ void crossing_predictor::foresee(std::span<const other_body> others) {
     if (std::ranges::none_of(zones_, gets_there))
       continue;
     arrivals_.clear();
-    lanes_->foresee(x, within_m, arrivals_);
+    way_->lanes->foresee(x, within_m, arrivals_);
     for (const auto& when : arrivals_) {
       assert(when.enter_s <= when.leave_s);
       foreseen_.push_back({who, when});
@@ -315,7 +314,7 @@ bool crossing_predictor::stays_off(const track& x, const world::zone& z) const {
 /// @returns how far a body's outline is from the way of the own body at a zone;
 /// not above 0 where it reaches into it.
 double crossing_predictor::gap_m(const track& x, const world::zone& z) const {
-  const auto& line = way_.on()->path();
+  const auto& line = way_->route()->path();
   assert(x.length_m > 0 && z.from_m <= z.to_m);
   const point ahead{std::cos(x.heading_rad), std::sin(x.heading_rad)};
   const point left{-ahead.y_m, ahead.x_m};
@@ -338,7 +337,7 @@ double crossing_predictor::gap_m(const track& x, const world::zone& z) const {
 /// @returns whether a body at a zone drives on the own way already.
 bool crossing_predictor::drives_along(const track& x,
                                       const world::zone& z) const {
-  const auto& line = way_.on()->path();
+  const auto& line = way_->route()->path();
   const auto on = line.project(x.centre(), (z.from_m + z.to_m) / 2,
                                (z.to_m - z.from_m) / 2 + x.length_m);
   const auto turned_rad = x.heading_rad - line.at(on.s_m).heading_rad;

@@ -2,12 +2,12 @@
 #pragma once
 
 #include "planners/scene/driving_scene.hpp"
+#include "planners/scene/known_way.hpp"
 #include "planners/scene/lane_network.hpp"
 #include "planners/scene/track.hpp"
 #include "world/roads/unrolled_route.hpp"
 
 #include <cstddef>
-#include <memory>
 #include <numbers>
 #include <optional>
 #include <span>
@@ -42,13 +42,11 @@ inline bool is_along(double cosine) {
 /// Judges the crossings of one route.
 class crossing_predictor {
 public:
-  /// @param lanes       Of the map that the route is on; not null.
+  /// @param way         Not null.
   /// @param corridor_m  Whoever is within this of the centre line and drives
   ///                    along is not crossing.
   /// @param foresight_s Others get so far at their present speed.
-  crossing_predictor(std::shared_ptr<const lane_network> lanes,
-                     world::route_ptr way, double corridor_m,
-                     double foresight_s);
+  crossing_predictor(known_way_ptr way, double corridor_m, double foresight_s);
 
   /// Finds the zones of the own way that the vehicle has not left and that
   /// begin before `to_m`.
@@ -116,8 +114,7 @@ private:
   bool stays_off(const track& x, const world::zone& z) const;
   double gap_m(const track& x, const world::zone& z) const;
 
-  std::shared_ptr<const lane_network> lanes_;
-  world::unrolled_route way_;
+  known_way_ptr way_;
   double corridor_m_, foresight_s_;
   std::vector<own_zone> zones_;
   std::vector<conflict_visit> arrivals_; // of one of the others

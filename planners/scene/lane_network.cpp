@@ -15,11 +15,11 @@ namespace sofof::planners {
 
 namespace {
 
-constexpr auto piece_m = 2.0;
+constexpr auto piece_m = 2.0, straight_piece_m = 10.0;
 
-/// Of a piece: outside a bend, whoever is beside the gap between two pieces is
-/// beside both. No lane goes on for longer beyond its end.
-constexpr auto wedge = 0.25;
+/// Outside a bend, whoever is beside the gap between two pieces is beside both.
+/// No lane goes on for longer beyond its end.
+constexpr auto wedge_m = 0.5;
 
 /// Cosine of the largest angle between a body and its lane, 45°.
 constexpr auto same_way = std::numbers::sqrt2 / 2;
@@ -116,18 +116,27 @@ void lane_network::cut() {
   std::vector<piece> pieces;
   for (std::size_t lane = 0; lane < paths_.size(); ++lane) {
     const auto& line = paths_[lane];
-    const auto count = std::ceil(line.length_m() / piece_m);
+    const auto most_m = line.is_straight() ? straight_piece_m : piece_m;
+    const auto count = std::ceil(line.length_m() / most_m);
     const auto step_m = line.length_m() / count;
-    assert(count >= 1 && step_m > 0 && step_m <= piece_m);
+    assert(count >= 1 && step_m > 0 && step_m <= most_m);
     for (auto i = 0.0; i < count; ++i) {
-      const piece p{lane, (i + 0.5) * step_m, line.at(i * step_m).at,
-                    line.at((i + 1) * step_m).at, half_widths_m_[lane]};
-      cells.add(p.from, p.to, p.half_width_m,
+      const piece p{line.at(i * step_m).at, line.at((i + 1) * step_m).at,
+                    (i + 0.5) * step_m, static_cast<std::uint32_t>(lane)};
+      cells.add(p.from, p.to, half_widths_m_[lane],
                 static_cast<cell_grid::item>(pieces.size()));
       pieces.push_back(p);
     }
   }
   pieces_ = {cells, [&pieces](cell_grid::item i) { return pieces[i]; }};
+}
+
+/// @returns whether a point is beside it, or beside the gap after or before it.
+bool lane_network::piece::reaches(point p) const {
+  const auto ahead = to - from;
+  const auto length2_m2 = dot(ahead, ahead), along = dot(ahead, p - from);
+  const auto beyond = std::max(-along, along - length2_m2); // times the length
+  return beyond <= 0 || beyond * beyond <= wedge_m * wedge_m * length2_m2;
 }
 
 lane_network::placements lane_network::find(const oriented_box& body) const {
@@ -139,8 +148,10 @@ lane_network::placements lane_network::find(const oriented_box& body) const {
   auto best_m = 0.0;
   auto settle = [&] {
     if (best && found.count < found.all.size()) {
+      const auto& line = paths_[best->lane];
       const auto on =
-          paths_[best->lane].project(body.centre, best->s_m, piece_m);
+          line.project(body.centre, best->s_m,
+                       line.is_straight() ? straight_piece_m : piece_m);
       found.all[found.count++] = {best->lane, on.s_m};
     }
     best = nullptr;
@@ -153,12 +164,10 @@ lane_network::placements lane_network::find(const oriented_box& body) const {
     const auto c = dot(ahead, along);
     if (c < 0 || c * c < same_way * same_way * dot(ahead, ahead))
       continue;
-    const auto to = body.centre - p.from;
-    const auto share = dot(ahead, to) / dot(ahead, ahead);
-    if (share < -wedge || share > 1 + wedge)
+    if (!p.reaches(body.centre))
       continue;
     const auto away_m = distance_to_segment_m(body.centre, p.from, p.to);
-    if (away_m > p.half_width_m)
+    if (away_m > half_widths_m_[p.lane])
       continue;
     if (best && best->lane != p.lane)
       settle();

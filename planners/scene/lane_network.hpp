@@ -112,10 +112,11 @@ public:
 
 private:
   struct piece {
-    std::size_t lane;
-    double s_m; // of its middle
     point from, to;
-    double half_width_m;
+    double s_m; // of its middle
+    std::uint32_t lane;
+
+    bool reaches(point p) const;
   };
   struct driver; // on its way
   void cut();

@@ -35,21 +35,27 @@ bool route_sight::is_seen_from(const world::viewpoint& eye, point p) const {
   const auto to = p - eye.at;
   if (dot(to, to) > eye.range_m * eye.range_m)
     return false;
-  const auto off_rad = wrap_angle(std::atan2(to.y_m, to.x_m) - eye.heading_rad);
-  constexpr auto rad_per_deg = std::numbers::pi / 180;
-  return std::abs(off_rad) <= eye.field_of_view_deg / 2 * rad_per_deg
+  const auto is_before_it = [&] {
+    constexpr auto rad_per_deg = std::numbers::pi / 180;
+    const auto off_rad =
+        wrap_angle(std::atan2(to.y_m, to.x_m) - eye.heading_rad);
+    return std::abs(off_rad) <= eye.field_of_view_deg / 2 * rad_per_deg;
+  };
+  return (eye.field_of_view_deg >= 360 || is_before_it())
          && (!eyes_.houses_hide || houses_.is_free(eye.at, p));
 }
 
-bool route_sight::is_seen(point p, double s_m) const {
-  assert(std::isfinite(s_m) && std::isfinite(p.x_m));
+world::viewpoint route_sight::eye_at(double s_m) const {
+  assert(std::isfinite(s_m));
   const auto axle = way_->path().at(s_m);
   const auto middle_m = (car_.front_m - car_.rear_m) / 2;
   const point ahead{std::cos(axle.heading_rad), std::sin(axle.heading_rad)};
-  return is_seen_from({axle.at + middle_m * ahead, axle.heading_rad,
-                       eyes_.range_m, eyes_.field_of_view_deg},
-                      p)
-         || is_told(p);
+  return {axle.at + middle_m * ahead, axle.heading_rad, eyes_.range_m,
+          eyes_.field_of_view_deg};
+}
+
+bool route_sight::is_seen(point p, const world::viewpoint& eye) const {
+  return is_seen_from(eye, p) || is_told(p);
 }
 
 bool route_sight::is_told(point p) const {
@@ -68,8 +74,9 @@ double route_sight::ahead_m(double s_m) const {
                          ? front_m + most_m
                          : std::min(front_m + most_m, way_->length_m());
   auto seen_m = front_m;
+  const auto eye = eye_at(s_m);
   while (seen_m < end_m
-         && is_seen(way_->path().at(seen_m + look_step_m).at, s_m))
+         && is_seen(way_->path().at(seen_m + look_step_m).at, eye))
     seen_m += look_step_m;
   assert(seen_m >= front_m);
   // Whoever is on an open route's end has left.
@@ -135,7 +142,8 @@ blind_corner route_sight::look_at(double line_m,
   blind_corner corner{line_m, line_m};
   assert(!those.empty());
   for (auto s = line_m; s > line_m - approach_m; s -= approach_step_m) {
-    if (!std::ranges::all_of(those, [&](point p) { return is_seen(p, s); }))
+    const auto eye = eye_at(s);
+    if (!std::ranges::all_of(those, [&](point p) { return is_seen(p, eye); }))
       break;
     corner.seen_from_m = s - approach_step_m;
   }

@@ -48,11 +48,9 @@ public:
   /// crossings, where somebody may stand, is not; in order.
   std::vector<blind_corner> corners(const lane_network& lanes) const;
 
-  /// @returns whether a body's middle at `p` is seen when the own rear axle is
-  /// at `s_m`.
-  bool is_seen(point p, double s_m) const;
-
 private:
+  world::viewpoint eye_at(double s_m) const;
+  bool is_seen(point p, const world::viewpoint& eye) const;
   bool is_seen_from(const world::viewpoint& eye, point p) const;
   bool is_told(point p) const;
   void add_long_ones(const world::unrolled_route& zones,

@@ -11,13 +11,11 @@
 #include <cstdint>
 #include <limits>
 #include <tuple>
+#include <utility>
 
 namespace sofof::planners {
 
 namespace {
-
-/// Coarse samples of the way, m.
-constexpr auto coarse_m = 4.0;
 
 /// Of sums of widths.
 constexpr auto rounding_m = 1e-6;
@@ -73,25 +71,12 @@ void put_in_order(const std::optional<lane_obstacle>& looks_past,
 
 } // namespace
 
-scene_interpreter::scene_interpreter(std::shared_ptr<const lane_network> lanes,
-                                     const world::route_ptr& way,
-                                     scene_params params)
-    : lanes_{lanes}, way_{way}, params_{params},
-      crossings_{std::move(lanes), way,
-                 params.car.width_m / 2 + params.margin_m, params.foresight_s} {
+scene_interpreter::scene_interpreter(known_way_ptr way, scene_params params)
+    : way_{std::move(way)}, params_{params}, crossings_{way_,
+                                                        params.car.width_m / 2
+                                                            + params.margin_m,
+                                                        params.foresight_s} {
   assert(params_.horizon_m > 0 && params_.margin_m >= 0);
-  const auto& line = way->path();
-  const auto count = std::ceil(line.length_m() / coarse_m);
-  bead_m_ = line.length_m() / count;
-  assert(bead_m_ > 0 && bead_m_ <= coarse_m);
-  for (auto i = 0.0; i < count; ++i)
-    beads_.push_back(line.at(i * bead_m_).at);
-  if (!way->closed())
-    beads_.push_back(line.at(line.length_m()).at);
-  for (std::size_t i = 0; i < way->sequence().size(); ++i)
-    half_lane_m_ =
-        std::max(half_lane_m_, way->half_width_m(way->start_of_m(i)));
-  assert(!beads_.empty() && half_lane_m_ > 0);
 }
 
 void scene_interpreter::describe(time_point now, const own_place& me,
@@ -119,12 +104,12 @@ void scene_interpreter::describe(time_point now, const own_place& me,
         {me.station, rear_m, front_m, me.speed_mps, out.is_impatient}, others_,
         out.keep_free, out.crossings, out.yields_m);
   if (!out.agreed) // who has agreed with others knows when they come
-    add_claimed(now, *way_, front_m, corridor_m(), out.keep_free, told,
+    add_claimed(now, route(), front_m, corridor_m(), out.keep_free, told,
                 out.crossings);
   foresee_cutting_in();
   find_near(me);
   find_bodies(me, out);
-  list_lead(now, *way_, out.lead, corridor_m(), told, out.lead_told);
+  list_lead(now, route(), out.lead, corridor_m(), told, out.lead_told);
   assert(std::ranges::is_sorted(out.crossings, {}, &crossing_user::from_m));
   assert(std::ranges::is_sorted(out.beside, {}, &lane_obstacle::from_m));
 }
@@ -152,7 +137,7 @@ void scene_interpreter::gather(time_point now, const own_place& me,
                                std::span<const track> tracks) {
   const auto& car = params_.car;
   const auto own_centre =
-      offset(way_->path().at(me.s_m), (car.front_m - car.rear_m) / 2, me.d_m);
+      offset(route().path().at(me.s_m), (car.front_m - car.rear_m) / 2, me.d_m);
   others_.clear();
   for (const auto& known : tracks) {
     assert(std::isfinite(known.heading_rad));
@@ -187,7 +172,7 @@ void scene_interpreter::keep_to_lane(const track& known, time_point now,
   auto then = known; // straight on since it was seen
   then.motion.mean.col(0) -=
       to_seconds(known.at - known.seen) * then.motion.mean.col(1);
-  const auto bent = lanes_->moved_along(then, speed_mps * unseen_s);
+  const auto bent = way_->lanes->moved_along(then, speed_mps * unseen_s);
   x.motion.mean = bent.motion.mean;
   x.heading_rad = bent.heading_rad;
   assert(x.motion.mean.allFinite());
@@ -202,7 +187,7 @@ void scene_interpreter::foresee_cutting_in() {
       for (const auto in_s : {0.7, 1.4}) {
         const auto& x = others_[i].x;
         const auto way_m = in_s * std::max(0.0, x.speed_mps());
-        others_.push_back({lanes_->moved_along(x, way_m)});
+        others_.push_back({way_->lanes->moved_along(x, way_m)});
       }
   assert(others_.size() >= count);
 }
@@ -210,46 +195,47 @@ void scene_interpreter::foresee_cutting_in() {
 /// Finds, by the beads, the places on the way ahead where bodies may reach
 /// into the lane; several of one body where the way returns to it.
 void scene_interpreter::find_near(const own_place& me) {
-  const auto count = static_cast<std::int64_t>(beads_.size());
-  assert(count > 0 && bead_m_ > 0);
+  const auto count = static_cast<std::int64_t>(way_->beads.size());
+  assert(count > 0 && way_->bead_m > 0);
   const auto front_m = me.s_m + params_.car.front_m;
   const auto at_front =
-      static_cast<std::int64_t>(std::floor(front_m / bead_m_)) - 1;
+      static_cast<std::int64_t>(std::floor(front_m / way_->bead_m)) - 1;
   auto last = static_cast<std::int64_t>(
-                  std::ceil((front_m + params_.horizon_m) / bead_m_))
+                  std::ceil((front_m + params_.horizon_m) / way_->bead_m))
               + 1;
-  if (!way_->closed())
+  if (!route().closed())
     last = std::clamp<std::int64_t>(last, 0, count - 1);
   near_.clear();
   for (std::size_t who = 0; who < others_.size(); ++who) {
     const auto& x = others_[who].x;
     // The middle of a long one may be far behind.
-    auto first = at_front - static_cast<std::int64_t>(radius_m(x) / bead_m_);
-    if (!way_->closed())
+    auto first =
+        at_front - static_cast<std::int64_t>(radius_m(x) / way_->bead_m);
+    if (!route().closed())
       first = std::clamp<std::int64_t>(first, 0, count - 1);
     const auto start = (first % count + count) % count; // on the lap
     assert(first <= last && start >= 0 && start < count);
-    const auto reach_m =
-        radius_m(x) + std::max(half_lane_m_, corridor_m()) + bead_m_ / 2;
+    const auto reach_m = radius_m(x) + std::max(way_->half_lane_m, corridor_m())
+                         + way_->bead_m / 2;
     auto away_m = [&](std::int64_t i) {
       const auto on_lap = start + (i - first);
       assert(on_lap >= 0);
       return distance_m(x.centre(),
-                        beads_[static_cast<std::size_t>(
+                        way_->beads[static_cast<std::size_t>(
                             on_lap < count ? on_lap : on_lap % count)]);
     };
     auto before_m = infinity;
     for (auto i = first; i <= last;) {
       const auto here_m = away_m(i);
       if (here_m > reach_m) { // it takes so many beads to come near
-        i += 1 + static_cast<std::int64_t>((here_m - reach_m) / bead_m_);
+        i += 1 + static_cast<std::int64_t>((here_m - reach_m) / way_->bead_m);
         before_m = infinity;
         continue;
       }
       if (here_m < before_m && (i == last || here_m <= away_m(i + 1))) {
-        const auto guess_m = static_cast<double>(i) * bead_m_;
+        const auto guess_m = static_cast<double>(i) * way_->bead_m;
         assert(std::isfinite(guess_m));
-        near_.push_back({guess_m - bead_m_ - radius_m(x), guess_m, who});
+        near_.push_back({guess_m - way_->bead_m - radius_m(x), guess_m, who});
       }
       before_m = here_m;
       ++i;
@@ -272,7 +258,7 @@ scene_interpreter::measure_met(const own_place& me, const near& where,
   const auto way_m = b.from_m - me.s_m - params_.car.front_m;
   const auto in_s = std::max(0.0, way_m) / (me.speed_mps - b.speed_mps);
   const auto way_to_it_m = std::max(0.0, x.speed_mps()) * in_s;
-  auto met = measure(lanes_->moved_along(x, way_to_it_m),
+  auto met = measure(way_->lanes->moved_along(x, way_to_it_m),
                      where.guess_m + b.speed_mps * in_s);
   if (met)
     met->from_m = b.from_m, met->to_m = b.to_m;
@@ -296,14 +282,14 @@ bool scene_interpreter::has_to_pass(const own_place& me, const track& x,
 /// will be; nothing if it will have left.
 std::optional<body_footprint>
 scene_interpreter::measure_ahead(const own_place& me, const near& where) const {
-  assert(where.who < others_.size() && half_lane_m_ > 0);
+  assert(where.who < others_.size() && way_->half_lane_m > 0);
   const auto front_m = me.s_m + params_.car.front_m;
   auto print = measure(others_[where.who].x, where.guess_m);
   if (!print || print->to_m <= me.s_m - params_.car.rear_m
       || print->from_m > front_m + params_.horizon_m)
     return {};
-  if (print->speed_mps < -stands_below_mps && print->low_m < half_lane_m_
-      && print->high_m > -half_lane_m_)
+  if (print->speed_mps < -stands_below_mps && print->low_m < way_->half_lane_m
+      && print->high_m > -way_->half_lane_m)
     print = measure_met(me, where, *print);
   if (print && where.who >= seen_ && print->from_m < front_m)
     return {}; // it would come into the side: braking does not help
@@ -376,16 +362,17 @@ bool scene_interpreter::has_time(const own_place& me, const near& where,
   const auto& x = others_[where.who].x;
   const auto rear_m = me.s_m - car.rear_m, front_m = me.s_m + car.front_m;
   const auto eye =
-      offset(way_->path().at(me.s_m), (car.front_m - car.rear_m) / 2, me.d_m);
-  const auto sees_to_m = opposite_in_sight_m(
-      *way_, eye, b.from_m, params_.sees_opposite_m, params_.houses, x.body());
+      offset(route().path().at(me.s_m), (car.front_m - car.rear_m) / 2, me.d_m);
+  const auto sees_to_m =
+      opposite_in_sight_m(route(), eye, b.from_m, params_.sees_opposite_m,
+                          params_.houses, x.body());
   assert(sees_to_m >= b.from_m);
   coming_.clear();
   for (std::size_t i = 0; i < seen_; ++i)
     if (i != where.who)
-      add_if_opposite(*way_, rear_m, front_m + params_.horizon_m, others_[i].x,
-                      coming_);
-  return has_time_to_overtake(*way_,
+      add_if_opposite(route(), rear_m, front_m + params_.horizon_m,
+                      others_[i].x, coming_);
+  return has_time_to_overtake(route(),
                               {rear_m, front_m, me.speed_mps, sees_to_m,
                                std::ranges::binary_search(were_beside_, x.id)},
                               {b.from_m, b.to_m}, coming_);
@@ -396,8 +383,9 @@ void scene_interpreter::add_swing(body_footprint& b) const {
   constexpr auto looked_at_every_m = 1.0, car_m = 5.0;
   auto left_1pm = 0.0, right_1pm = 0.0;
   for (auto s = b.from_m - car_m; s <= b.to_m; s += looked_at_every_m) {
-    const auto on = way_->closed() ? s : std::clamp(s, 0.0, way_->length_m());
-    const auto bends_1pm = way_->path().at(on).curvature_1pm;
+    const auto on =
+        route().closed() ? s : std::clamp(s, 0.0, route().length_m());
+    const auto bends_1pm = route().path().at(on).curvature_1pm;
     left_1pm = std::max(left_1pm, bends_1pm);
     right_1pm = std::max(right_1pm, -bends_1pm);
   }
@@ -446,7 +434,7 @@ void scene_interpreter::find_bodies(const own_place& me, driving_scene& out) {
       margin_m -= std::clamp(lacking_m(margin_m) - may_lack_m, 0.0, margin_m);
     const auto lacks_m = lacking_m(margin_m);
     const auto certainly_lacks_m = lacking_m(0);
-    const auto left_m = way_->left_m(b.from_m) - b.half_lane_m;
+    const auto left_m = route().left_m(b.from_m) - b.half_lane_m;
     const auto is_overtaken =
         lacks_m > may_lack_m + 2 * rounding_m && left_m > 0
         && need_m + margin_m <= b.half_lane_m + left_m - b.high_m

@@ -5,14 +5,13 @@
 #include "planners/scene/corridor.hpp"
 #include "planners/scene/crossing_predictor.hpp"
 #include "planners/scene/driving_scene.hpp"
-#include "planners/scene/lane_network.hpp"
+#include "planners/scene/known_way.hpp"
 #include "planners/scene/opposite_view.hpp"
 #include "planners/scene/told_drive.hpp"
 #include "planners/scene/track.hpp"
 #include "world/vehicle/vehicle.hpp"
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -59,9 +58,8 @@ struct own_place {
 ///   will be in a moment, too.
 class scene_interpreter {
 public:
-  /// @param lanes  Of the map that the route is on; not null.
-  scene_interpreter(std::shared_ptr<const lane_network> lanes,
-                    const world::route_ptr& way, scene_params params);
+  /// @param way  Not null.
+  scene_interpreter(known_way_ptr way, scene_params params);
 
   /// Describes all but `stop_at_m`, which it leaves as it is: what is granted
   /// is not seen.
@@ -90,7 +88,7 @@ private:
   void foresee_cutting_in();
   void find_near(const own_place& me);
   std::optional<body_footprint> measure(const track& x, double guess_m) const {
-    return measure_body(*way_, x, {guess_m, bead_m_, corridor_m()});
+    return measure_body(route(), x, {guess_m, way_->bead_m, corridor_m()});
   }
   std::optional<body_footprint> measure_met(const own_place& me,
                                             const near& where,
@@ -105,6 +103,7 @@ private:
                                               const lead_vehicle& lead) const;
   void add_swing(body_footprint& b) const;
   void find_bodies(const own_place& me, driving_scene& out);
+  const world::route& route() const { return *way_->route(); }
   double corridor_m() const {
     return params_.car.width_m / 2 + params_.margin_m;
   }
@@ -116,13 +115,9 @@ private:
   bool has_time(const own_place& me, const near& where,
                 const body_footprint& b);
 
-  std::shared_ptr<const lane_network> lanes_;
-  world::route_ptr way_;
+  known_way_ptr way_;
   scene_params params_;
   crossing_predictor crossings_;
-  std::vector<point> beads_; // along the way, equidistant
-  double bead_m_ = 0;
-  double half_lane_m_ = 0; // at its widest
   // Of one call, like `near_` and `coming_`.
   std::vector<other_body> others_;
   std::size_t seen_ = 0; // of them; the rest is where those who cut in will be

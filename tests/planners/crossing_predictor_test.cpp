@@ -400,8 +400,7 @@ TEST_CASE(
   const auto map = toy::cross_roads();
   const auto way = toy::make_route(map, {4, 0, 2});
   constexpr auto corridor_m = 1.2;
-  crossing_predictor eyes{std::make_shared<const lane_network>(map), way,
-                          corridor_m, 8};
+  crossing_predictor eyes{look_at(map, way), corridor_m, 8};
   std::vector<way_stretch> keep_free;
   eyes.look_ahead(115, 120, 200, keep_free);
   const auto users = [&](double front_x_m, double speed_mps) {

@@ -3,6 +3,7 @@
 #include "planners/scene/object_tracker.hpp"
 #include "planners/scene/scene_interpreter.hpp"
 #include "planners/trajectory/spatial_planner.hpp"
+#include "tests/planners/onlooker.hpp"
 #include "tests/planners/test_drive.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/toy_streets.hpp"
@@ -113,8 +114,8 @@ TEST_CASE("looking round takes nothing from the heap, once as much was seen") {
   const auto map = toy::cross_roads();
   scene_params params;
   params.judges_crossings = true;
-  scene_interpreter eyes{std::make_shared<const lane_network>(map),
-                         toy::make_route(map, {4, 0, 2}), params};
+  scene_interpreter eyes{test::look_at(map, toy::make_route(map, {4, 0, 2})),
+                         params};
   object_tracker model;
   std::vector<perceived_object> all;
   for (auto i = 0; i < 12; ++i) {

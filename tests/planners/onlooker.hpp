@@ -40,11 +40,16 @@ inline track on_way(const route& way, double s_m, double speed_mps = 0) {
   return seen_track(body(x, car_params).centre, x.heading_rad, speed_mps);
 }
 
+/// A route as those know it who look round on it.
+inline known_way_ptr look_at(const road_map& map, const route_ptr& route) {
+  return std::make_shared<const known_way>(
+      std::make_shared<const lane_network>(map), route);
+}
+
 /// A vehicle that looks round.
 struct onlooker {
   onlooker(const road_map& map, route_ptr route, scene_params params = {})
-      : way{route}, eyes{std::make_shared<const lane_network>(map), route,
-                         params} {}
+      : way{route}, eyes{look_at(map, route), params} {}
 
   const driving_scene& look(const std::vector<track>& tracks,
                             time_point at = look_time) {

@@ -87,7 +87,7 @@ private:
     way_ = found->way;
     from_m_ = found->ahead.from_m;
     ego_.emplace(way_, from_m_);
-    scene_.emplace(world_->roads->lanes(), way_, world_->look());
+    scene_.emplace(world_->roads->way(way_), world_->look());
     return true;
   }
 

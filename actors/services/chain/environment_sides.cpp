@@ -53,7 +53,7 @@ private:
     const auto way = world_->streets->find(name);
     if (!way)
       return false;
-    scene_.emplace(world_->roads->lanes(), way, world_->look());
+    scene_.emplace(world_->roads->way(way), world_->look());
     way_ = name;
     return true;
   }

@@ -75,7 +75,7 @@ private:
       return true;
     way_ = world_->streets->find(name);
     if (way_)
-      scene_.emplace(world_->roads->lanes(), way_, world_->look());
+      scene_.emplace(world_->roads->way(way_), world_->look());
     return way_ != nullptr;
   }
 

@@ -11,6 +11,14 @@ known_roads::known_roads(const world::road_map& map,
     : lanes_(std::make_shared<const planners::lane_network>(map)),
       style_(style), houses_{map.buildings()}, eyes_{eyes}, judges_{judges} {}
 
+planners::known_way_ptr known_roads::way(const world::route_ptr& route) {
+  const std::lock_guard lock{mutex_};
+  auto& known = ways_[route.get()];
+  if (!known)
+    known = std::make_shared<const planners::known_way>(lanes_, route);
+  return known;
+}
+
 planners::route_profile_ptr known_roads::profile(const world::route_ptr& way,
                                                  bool at_provider) {
   // Without sensors beside the road a provider sees what vehicles see.

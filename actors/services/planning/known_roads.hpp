@@ -1,6 +1,7 @@
 // What all planners of a run share of the map.
 #pragma once
 
+#include "planners/scene/known_way.hpp"
 #include "planners/scene/lane_network.hpp"
 #include "planners/scene/line_of_sight.hpp"
 #include "planners/scene/route_sight.hpp"
@@ -28,6 +29,8 @@ public:
 
   const planners::line_of_sight& houses() const { return houses_; }
 
+  planners::known_way_ptr way(const world::route_ptr& route);
+
   /// @param at_provider  It is for plans that are made there.
   planners::route_profile_ptr profile(const world::route_ptr& way,
                                       bool at_provider);
@@ -39,7 +42,8 @@ private:
   planners::eyes_on_road eyes_;
   bool judges_;
   std::mutex mutex_;
-  // Each keeps its route, so that no other takes its place in memory.
+  // Each of both keeps its route, so that no other takes its place in memory.
+  std::map<const world::route*, planners::known_way_ptr> ways_;
   std::map<std::pair<const world::route*, bool>, planners::route_profile_ptr>
       profiles_;
 };

@@ -92,11 +92,12 @@ private:
   // -- what the vehicle says ------------------------------------------------
 
   void on_report(const messages::its_pdu& message, time_point now) {
-    if (!messages::etsi::decode(message.view(), word_)
-        || word_.header.station.value != station_)
+    static thread_local messages::etsi::mcm said; // room that is used again
+    if (!messages::etsi::decode(message.view(), said)
+        || said.header.station.value != station_)
       return;
     const auto word =
-        messages::read_word(word_, world_->where->ahead_by(message.ahead), now);
+        messages::read_word(said, world_->where->ahead_by(message.ahead), now);
     if (!word || word->at < heard_at_ || protocol::is_of_future(word->at, now))
       return;
     heard_at_ = word->at;
@@ -176,8 +177,7 @@ private:
   double stop_at_m_ = 0; // the end of the vehicle's authority
   agreed_word agreed_{world_};
   suggestion_writer writer_{world_->where, provider_, station_};
-  bool has_begun_ = false;   // to suggest plans
-  messages::etsi::mcm word_; // room that is used again
+  bool has_begun_ = false; // to suggest plans
 };
 
 } // namespace

@@ -1,6 +1,8 @@
 // One planner at work, cycle by cycle, along one route.
 #include "actors/services/planning/plan_cycle.hpp"
 
+#include "base/thread_room.hpp"
+
 #include <cmath>
 #include <utility>
 
@@ -36,7 +38,7 @@ plan_cycle::plan_cycle(const planning_world& world, station_id station,
                        world::route_ptr way)
     : station_{station}, stopwatch_{std::move(stopwatch)}, way_{std::move(way)},
       planner_{world.options.make(way_, *world.roads, at_provider)},
-      scene_{world.roads->lanes(), way_, world.look()} {}
+      scene_{world.roads->way(way_), world.look()} {}
 
 planners::plan_report
 plan_cycle::run(time_point now, planners::planning_input from,
@@ -50,6 +52,7 @@ plan_cycle::run(time_point now, planners::planning_input from,
 planners::plan_report
 plan_cycle::run_in_scene(time_point now, const planners::planning_input& from) {
   const auto start = stopwatch_ ? stopwatch_() : now;
+  const thread_room lent{next_};
   const auto in_time = [&](int) { return stopwatch_() - start < deadline; };
   auto report = planner_->plan(
       now, from, plan_.empty() ? nullptr : &plan_, next_,

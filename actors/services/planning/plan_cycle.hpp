@@ -67,7 +67,8 @@ private:
   world::route_ptr way_;
   std::unique_ptr<planners::trajectory_planner> planner_;
   planners::scene_interpreter scene_;
-  world::trajectory plan_, next_;
+  world::trajectory plan_;
+  world::trajectory next_; // of one call
 };
 
 } // namespace sofof::actors

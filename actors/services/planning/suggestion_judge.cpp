@@ -29,25 +29,26 @@ public:
       return {};
     const auto before = latest.in_use.as<world::trajectory>();
     world::trajectory plan;
+    static thread_local messages::etsi::mcm said; // room that is used again
     const auto message = result.as<messages::its_pdu>();
-    if (!message || !messages::etsi::decode(message->view(), word_)
+    if (!message || !messages::etsi::decode(message->view(), said)
         || messages::read_suggestion(
-               word_, vehicle_.station, *way, request->from.s_m,
+               said, vehicle_.station, *way, request->from.s_m,
                world_->where->ahead_by(message->ahead), now, before.get(), plan)
                != messages::maneuver_fault::none)
       return not_used(judge_.judge_unreadable());
     const auto& own = request->own;
-    planners::judged_plan x{
-        .way = *way,
-        .plan = plan,
-        .in_use = before.get(),
-        .own = {own.at, own.position, own.heading_rad, own.speed_mps,
-                own.accel_mps2, own.curvature_1pm},
-        .s_m = request->from.s_m,
-        .seen = request->seen,
-        .crossings_granted = world_->crossings_granted,
-        .now = now,
-        .fingerprint = messages::fingerprint_of_plan(word_)};
+    planners::judged_plan x{.way = *way,
+                            .plan = plan,
+                            .in_use = before.get(),
+                            .own = {own.at, own.position, own.heading_rad,
+                                    own.speed_mps, own.accel_mps2,
+                                    own.curvature_1pm},
+                            .s_m = request->from.s_m,
+                            .seen = request->seen,
+                            .crossings_granted = world_->crossings_granted,
+                            .now = now,
+                            .fingerprint = messages::fingerprint_of_plan(said)};
     const auto alone =
         judge_.wants_own_plan(x) ? own_plan(latest, now) : nullptr;
     x.own_plan = alone.get();
@@ -81,7 +82,6 @@ private:
   // To compare with, when needed.
   std::shared_ptr<offloading::service_function> own_;
   planners::plan_judge judge_;
-  messages::etsi::mcm word_; // room that is used again
 };
 
 } // namespace

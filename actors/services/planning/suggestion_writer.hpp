@@ -2,12 +2,10 @@
 #pragma once
 
 #include "messages/v2x/georeference.hpp"
-#include "messages/v2x/mcm/mcm_content.hpp"
 #include "offloading/service.hpp"
 
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 namespace sofof::actors {
 
@@ -29,9 +27,6 @@ private:
   point position_;
   station_id to_;
   std::uint16_t update_ = 0;
-  // Room that is used again.
-  messages::etsi::mcm said_;
-  std::vector<messages::maneuver_waypoint> waypoints_;
 };
 
 } // namespace sofof::actors
