@@ -33,14 +33,14 @@ energy_figures& energy_figures::operator+=(const energy_figures& x) {
 }
 
 void cycle_ledger::add(const messages::work_record& x) {
-  auto& sum = counts_[{x.service, x.station}].figures;
+  auto& sum = counts_[{x.station, x.service}].figures;
   sum.on_board += x.on_board;
   sum.inputs += x.inputs;
   sum.along += x.along;
 }
 
 void cycle_ledger::add(const messages::cycle_record& x) {
-  auto& [sum, newest] = counts_[{x.session.service, x.session.station}];
+  auto& [sum, newest] = counts_[{x.session.station, x.session.service}];
   ++sum.results;
   if (!x.used)
     return; // the vehicle went by something else
@@ -54,14 +54,14 @@ cycle_figures
 cycle_ledger::cycles(const messages::service_name& service) const {
   cycle_figures sum;
   for (const auto& [who, x] : counts_)
-    if (who.first == service)
+    if (who.second == service)
       sum += x.figures;
   return sum;
 }
 
 cycle_figures cycle_ledger::cycles(const messages::service_name& service,
                                    station_id station) const {
-  const auto found = counts_.find({service, station});
+  const auto found = counts_.find({station, service});
   return found != counts_.end() ? found->second.figures : cycle_figures{};
 }
 
@@ -76,22 +76,22 @@ energy_figures
 cycle_ledger::energy(const messages::service_name& service) const {
   energy_figures sum;
   for (const auto& [who, x] : counts_)
-    if (who.first == service)
+    if (who.second == service)
       sum += energy_of(who, x.figures);
   return sum;
 }
 
 energy_figures cycle_ledger::energy(station_id station) const {
   energy_figures sum;
-  for (const auto& [who, x] : counts_)
-    if (who.second == station)
-      sum += energy_of(who, x.figures);
+  for (auto x = counts_.lower_bound({station, {}});
+       x != counts_.end() && x->first.first == station; ++x)
+    sum += energy_of(x->first, x->second.figures);
   return sum;
 }
 
 energy_figures cycle_ledger::energy_of(const user& who,
                                        const cycle_figures& x) const {
-  const auto& [service, station] = who;
+  const auto& [station, service] = who;
   const auto found = costs_.find({station, std::string{service.view()}});
   if (found == costs_.end())
     return {};

@@ -58,7 +58,7 @@ public:
   energy_figures energy(station_id station) const;
 
 private:
-  using user = std::pair<messages::service_name, station_id>;
+  using user = std::pair<station_id, messages::service_name>;
   struct counts {
     cycle_figures figures;
     std::uint64_t newest = 0; // cycle
