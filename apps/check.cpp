@@ -9,11 +9,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace sofof::apps {
 
@@ -52,10 +55,20 @@ void warn_of_overlaps(const scenario::scenario_definition& s) {
         stderr);
 }
 
-/// Says how long results take at most, and warns where that is too long.
+/// Says how long results take at most, and warns where that is too long; once
+/// of providers that are alike.
 void tell_responses(const scenario::scenario_definition& s) {
+  std::vector<scenario::provider_schedule> told;
   for (std::size_t p = 0; p < s.providers.size(); ++p) {
-    const auto schedule = scenario::schedule_of(s, p);
+    auto schedule = scenario::schedule_of(s, p);
+    const auto alike = std::ranges::find_if(
+        told, [&](const auto& x) { return x.is_like(schedule); });
+    if (alike == told.end())
+      told.push_back(std::move(schedule));
+    else
+      ++alike->alike;
+  }
+  for (const auto& schedule : told) {
     std::cout << scenario::to_comment(schedule);
     if (const auto warning = scenario::warning_of(schedule, s);
         !warning.empty())

@@ -64,8 +64,8 @@ struct world_actors {
 };
 
 /// Spawns the actors of a scenario, or of a part of it. Each provider gets the
-/// id of its place in the file, counting from 1. A provider that dies and starts again is two, the second with an
-/// id of its own.
+/// id of its place in the file, counting from 1. A provider that dies and
+/// starts again is two, the second with an id of its own.
 /// @param s     Loaded, so that everything in it is valid.
 /// @param sink  Takes all records.
 /// @param clock  Tells the time of day of the run.

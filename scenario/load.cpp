@@ -10,8 +10,10 @@
 
 #include <cstdio>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 namespace sofof::scenario {
 
@@ -149,6 +151,9 @@ scenario_definition parse_scenario(std::string_view text, const fs::path& file,
   source.read([&](option_visitor& s) { all.visit_options(s); });
   all.read_from.push_back(file);
   all.notes = source.notes();
+  if (const auto grid = std::exchange(all.provider_grid, std::nullopt))
+    for (auto& p : grid->all())
+      all.providers.push_back(std::move(p));
   complete_networks(all);
   const auto folder = file.parent_path();
   if (!all.network.trace.empty())

@@ -169,4 +169,26 @@ struct provider_options {
   }
 };
 
+/// Providers in rows and columns, alike but for their places.
+struct provider_grid_options {
+  std::int64_t columns = 1;
+  std::int64_t rows = 1;
+  point first_m;        ///< Of the south-western one.
+  double apart_m = 750; ///< Between neighbours.
+  double area_radius_m = 300;
+  double range_m = 2000;
+
+  /// @returns them, row by row: `mec_0_0`, `mec_0_1` …, the row first.
+  std::vector<provider_options> all() const;
+
+  void visit_options(option_visitor& s) {
+    s.field("columns", columns, {1, 1000});
+    s.field("rows", rows, {1, 1000});
+    s.field("first_m", first_m);
+    s.field("apart_m", apart_m, {1, 1e6});
+    s.field("area_radius_m", area_radius_m, {1, 1e6});
+    s.field("range_m", range_m, {0, 1e6});
+  }
+};
+
 } // namespace sofof::scenario

@@ -72,6 +72,22 @@ polygon provider_options::area() const {
                           static_cast<unsigned>(area_corners));
 }
 
+std::vector<provider_options> provider_grid_options::all() const {
+  std::vector<provider_options> placed;
+  for (std::int64_t row = 0; row < rows; ++row)
+    for (std::int64_t column = 0; column < columns; ++column) {
+      auto& p = placed.emplace_back();
+      p.name = fmt::format("mec_{}_{}", row, column);
+      p.position_m =
+          first_m
+          + apart_m
+                * point{static_cast<double>(column), static_cast<double>(row)};
+      p.area_radius_m = area_radius_m;
+      p.range_m = range_m;
+    }
+  return placed;
+}
+
 bool provider_options::offers(std::string_view service) const {
   return services.empty()
          || std::ranges::find(services, service) != services.end();
@@ -202,6 +218,12 @@ void scenario_definition::visit_options(option_visitor& s) {
   s.table("sensors", [this](option_visitor& t) { sensors.visit_options(t); });
   visit_list(s, "obstacle", obstacles);
   visit_list(s, "provider", providers);
+  if (s.has("provider_grid", provider_grid.has_value()))
+    s.table("provider_grid", [this](option_visitor& t) {
+      if (!provider_grid)
+        provider_grid.emplace();
+      provider_grid->visit_options(t);
+    });
   if (s.moved("network.workers", "compute.workers"))
     compute.of_network.workers = true;
   if (s.moved("network.more_computing", "compute.more_computing"))

@@ -69,6 +69,8 @@ struct scenario_definition {
   std::vector<obstacle_options> obstacles; ///< `obstacle` in the file.
   world::sensor_params sensors;            ///< Of every vehicle.
   std::vector<provider_options> providers;
+  /// More of them; of a loaded scenario they are among `providers`.
+  std::optional<provider_grid_options> provider_grid;
   network_options network;
   compute_options compute; ///< Of providers that have none of their own.
   channel::host_options vehicle_host; ///< Of all vehicles, if there is one.

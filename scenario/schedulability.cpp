@@ -118,11 +118,22 @@ provider_schedule schedule_of(const scenario_definition& all,
   return made;
 }
 
+bool provider_schedule::is_like(const provider_schedule& other) const {
+  auto renamed = other;
+  renamed.provider = provider;
+  renamed.alike = alike;
+  return in_time_with == other.in_time_with
+         && to_comment(renamed) == to_comment(*this);
+}
+
 std::string to_comment(const provider_schedule& schedule) {
   auto text = fmt::format(
-      "# Provider \"{}\" ({} worker{}), vehicles at once: {}; load {:.0f} %.\n",
-      schedule.provider, schedule.workers, schedule.workers == 1 ? "" : "s",
-      schedule.vehicles, 100 * schedule.load);
+      "# Provider \"{}\"{} ({} worker{}), vehicles at once: {}; load {:.0f} "
+      "%.\n",
+      schedule.provider,
+      schedule.alike > 0 ? fmt::format(" and {} like it", schedule.alike) : "",
+      schedule.workers, schedule.workers == 1 ? "" : "s", schedule.vehicles,
+      100 * schedule.load);
   for (const auto& one : schedule.services) {
     const auto later =
         one.running ? fmt::format(", {} once all run", stated(one.running))
@@ -141,12 +152,14 @@ std::string warning_of(const provider_schedule& schedule,
       || all.policies.codm->name() == "response_time")
     return {};
   return fmt::format(
-      "provider \"{}\" may be too slow, with {} vehicles at once: a response "
+      "provider \"{}\"{} may be too slow, with {} vehicles at once: a response "
       "of "
       "\"{}\" {} {}, where {} are allowed; with up to {} all are in time.",
-      schedule.provider, schedule.vehicles, late->service,
-      late->beginning ? "takes" : "has", stated(late->beginning),
-      milliseconds(late->limit), schedule.in_time_with);
+      schedule.provider,
+      schedule.alike > 0 ? fmt::format(", like {} more,", schedule.alike) : "",
+      schedule.vehicles, late->service, late->beginning ? "takes" : "has",
+      stated(late->beginning), milliseconds(late->limit),
+      schedule.in_time_with);
 }
 
 } // namespace sofof::scenario

@@ -31,12 +31,16 @@ inline constexpr double most_late = 0.01;
 
 struct provider_schedule {
   std::string provider;
+  std::int64_t alike = 0; ///< Others of which the same is true.
   std::int64_t workers = 1;
   std::int64_t vehicles = 0; ///< At once: all that are connected.
   double load = 0;           ///< Longest computing times, of all workers' time.
   std::vector<service_response> services; ///< In the scenario's order.
   /// With how many vehicles at once all are in time, of those that there are.
   std::int64_t in_time_with = 0;
+
+  /// Whether all figures of another provider are the same.
+  bool is_like(const provider_schedule& other) const;
 };
 
 /// @param place  Of the provider; it offers something.

@@ -105,6 +105,26 @@ TEST_CASE("the streets come with the scenario") {
   CHECK_FALSE(s.world->find("straight")->closed());
 }
 
+TEST_CASE("a grid of providers is placed beside those that have a table each") {
+  const auto s = example::load(
+      example::text,
+      {"provider_grid.columns=3", "provider_grid.rows=2",
+       "provider_grid.first_m=[-100.0, 50.0]", "provider_grid.apart_m=200",
+       "provider_grid.area_radius_m=90", "provider_grid.range_m=150"});
+  REQUIRE(s.providers.size() == 8);
+  const auto& east = s.providers[4]; // of the southern row
+  CHECK(east.name == "mec_0_2");
+  CHECK(east.position_m == point{300, 50});
+  CHECK(east.area_radius_m == 90);
+  CHECK(east.range_m == 150);
+  CHECK(s.providers[7].name == "mec_1_2");
+  CHECK(s.providers[7].position_m == point{300, 250});
+  // What is printed of it can be loaded, and has each of them once.
+  const auto again = example::load(to_toml(s));
+  REQUIRE(again.providers.size() == 8);
+  CHECK(again.providers[7].position_m == point{300, 250});
+}
+
 TEST_CASE("a provider may have a radio and a network of its own") {
   const auto s = example::load(example::with(
       "[network]", "radio = \"b\"\n[provider.network]\nprofile = \"ideal\"\n"

@@ -62,6 +62,22 @@ TEST_CASE("a provider that may be too slow is told, and with how many vehicles "
   CHECK(warning({"policies.codm=response_time"}).empty());
 }
 
+TEST_CASE("of providers that are alike only one is told of, and how many are "
+          "like it") {
+  auto one = schedule(0);
+  auto other = one;
+  other.provider = "another";
+  CHECK(one.is_like(other));
+  CHECK(!one.is_like(schedule(1)));
+  other.in_time_with = 2;
+  CHECK(!one.is_like(other));
+  one.alike = 3;
+  CHECK(to_comment(one).find("\"mec\" and 3 like it (") != std::string::npos);
+  CHECK(warning_of(one, example::load())
+            .find("\"mec\", like 3 more, may be too slow")
+        != std::string::npos);
+}
+
 TEST_CASE("with one vehicle less than is in time it is in time, with one more "
           "it is not") {
   const auto set = [](int vehicles) {

@@ -42,8 +42,8 @@ route_ptr one_lane(std::vector<point> centre) {
   l.centre = std::move(centre);
   l.half_width_m = 1.75;
   l.limits = {{0, 20}};
-  return std::make_shared<const route>("lane", std::vector{l},
-                                       std::vector<std::size_t>{0}, false);
+  return std::make_shared<const route>(
+      "lane", std::vector{l}, std::vector<std::size_t>{0}, false, lane_index{});
 }
 
 /// 100 m straight on, a quarter of a circle to the left, 100 m.

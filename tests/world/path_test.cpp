@@ -67,6 +67,42 @@ TEST_CASE("a path through two points is the straight line") {
   CHECK(half.curvature_1pm == doctest::Approx(0));
 }
 
+TEST_CASE("points in a row make a straight line, however far apart") {
+  dice d{7};
+  for (auto trial = 0; trial < 50; ++trial) {
+    const point from{d.between(-500, 500), d.between(-500, 500)};
+    const auto heading_rad = d.between(-pi, pi);
+    const point ahead{std::cos(heading_rad), std::sin(heading_rad)};
+    std::vector<point> row{from};
+    for (auto i = 0; i < 20; ++i)
+      row.push_back(row.back() + d.between(0.5, 20) * ahead);
+    const path line{row};
+    CHECK(line.is_straight());
+    CHECK(line.length_m()
+          == doctest::Approx(distance_m(row.front(), row.back())));
+    for (auto i = 0; i < 50; ++i) {
+      const auto s_m = d.between(0, line.length_m()), d_m = d.between(-30, 30);
+      const auto here = line.at(s_m);
+      CHECK(distance_m(here.at, from + s_m * ahead) < 1e-9);
+      CHECK(here.heading_rad == doctest::Approx(heading_rad).epsilon(1e-9));
+      CHECK(std::abs(here.curvature_1pm) < 1e-12);
+      const auto beside = here.at + d_m * point{-ahead.y_m, ahead.x_m};
+      for (const auto guess_m : {s_m, s_m - 8, s_m + 15}) {
+        const auto foot = line.project(beside, guess_m);
+        CHECK(foot.s_m == doctest::Approx(s_m).epsilon(1e-9));
+        CHECK(foot.d_m == doctest::Approx(d_m).epsilon(1e-9));
+      }
+    }
+  }
+}
+
+TEST_CASE("points that leave the row by a hand, or turn back, bend the line") {
+  CHECK(!path{std::vector<point>{{0, 0}, {10, 0.01}, {20, 0}}}.is_straight());
+  CHECK(!path{std::vector<point>{{0, 0}, {10, 0}, {8, 0}, {20, 0}}}
+             .is_straight());
+  CHECK(!path{circle_points(20, 8)}.is_straight());
+}
+
 TEST_CASE("a broken list of points is refused") {
   using points = std::vector<point>;
   CHECK_THROWS_AS(path{points{}}, std::invalid_argument);

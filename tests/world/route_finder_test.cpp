@@ -53,8 +53,8 @@ route_ptr hairpin() {
                                7 * std::sin(a * std::numbers::pi)});
   for (auto x = 100.0; x >= 0; x -= 5)
     lanes[0].centre.push_back({x, 7});
-  return std::make_shared<const route>("hairpin", lanes,
-                                       std::vector<std::size_t>{0}, false);
+  return std::make_shared<const route>(
+      "hairpin", lanes, std::vector<std::size_t>{0}, false, lane_index{});
 }
 
 } // namespace

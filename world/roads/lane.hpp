@@ -3,7 +3,9 @@
 
 #include "base/geometry.hpp"
 
+#include <cstddef>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace sofof::world {
@@ -27,5 +29,8 @@ struct lane {
   /// be used to pass what blocks this one; empty: none.
   std::string opposite;
 };
+
+/// Lanes by their names: indices into those of a map.
+using lane_index = std::unordered_map<std::string, std::size_t>;
 
 } // namespace sofof::world

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 namespace sofof::world {
 
@@ -15,6 +16,21 @@ namespace {
 constexpr auto table_step_m = 0.5;
 /// A guess is good that is no farther off.
 constexpr auto good_guess_m = 1.0;
+
+/// @returns whether points are in a row, one behind the other: the spline
+/// through them is a straight line.
+bool are_straight(std::span<const point> points) {
+  constexpr auto enough_m = 1e-9;
+  const auto chord = points.back() - points.front();
+  const auto length_m = distance_m(points.front(), points.back());
+  auto last_m = -1.0;
+  return std::ranges::all_of(points, [&](point p) {
+    const auto to = p - points.front();
+    const auto along_m = dot(chord, to) / length_m;
+    return std::abs(cross(chord, to)) <= enough_m * length_m
+           && along_m > std::exchange(last_m, along_m);
+  });
+}
 
 /// Where the spline has which arc length: short intervals of its pieces.
 class ruler {
@@ -77,7 +93,9 @@ path::path(std::span<const point> points, bool closed) : closed_{closed} {
   length_m_ = tape.length_m();
   knots_m_.assign(tape.knots_m().begin(),
                   tape.knots_m().begin() + std::ssize(points));
-  const auto count = std::max(1.0, std::round(length_m_ / table_step_m));
+  const auto count = !closed && are_straight(points)
+                         ? 1.0
+                         : std::max(1.0, std::round(length_m_ / table_step_m));
   step_m_ = length_m_ / count;
   steps_per_m_ = count / length_m_;
   table_.reserve(static_cast<std::size_t>(count) + 1);

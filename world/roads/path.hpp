@@ -47,6 +47,9 @@ public:
   double length_m() const { return length_m_; }
   bool closed() const { return closed_; }
 
+  /// Whether it bends nowhere.
+  bool is_straight() const { return table_.size() == 2; }
+
   /// Arc lengths of the given points, in order, m.
   std::span<const double> knots_m() const { return knots_m_; }
 
@@ -99,7 +102,9 @@ private:
                        double high_m) const;
   path_offset refine(point p, double s_m, double low_m, double high_m) const;
 
-  std::vector<knot> table_; // equidistant in arc length, both ends included
+  // Equidistant in arc length, both ends included; these alone if it is
+  // straight.
+  std::vector<knot> table_;
   std::vector<double> knots_m_;
   double step_m_ = 0;
   double steps_per_m_ = 0;

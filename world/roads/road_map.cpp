@@ -181,7 +181,7 @@ route_ptr road_map::make_route(std::string name,
              lanes_[to].name, lanes_[from].name);
   }
   return std::make_shared<route>(std::move(name), lanes_, std::move(sequence),
-                                 closed);
+                                 closed, index_);
 }
 
 // On the lane of `x`, from it on, then on the lanes that follow.

@@ -83,7 +83,7 @@ private:
   std::vector<building> buildings_;
   std::vector<conflict> conflicts_;
   std::vector<std::vector<std::size_t>> next_; // of each lane
-  std::unordered_map<std::string, std::size_t> index_;
+  lane_index index_;
   std::vector<piece> pieces_;            // of one lane after the other
   std::vector<std::uint32_t> followers_; // first pieces; each list ends by none
   cell_grid cells_;                      // of the pieces

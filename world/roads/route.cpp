@@ -39,7 +39,8 @@ struct chain {
 } // namespace
 
 route::route(std::string name, std::span<const lane> lanes,
-             std::vector<std::size_t> sequence, bool closed)
+             std::vector<std::size_t> sequence, bool closed,
+             const lane_index& index)
     : name_{std::move(name)}, sequence_{std::move(sequence)} {
   assert(!sequence_.empty());
   assert(std::ranges::all_of(sequence_,
@@ -53,10 +54,9 @@ route::route(std::string name, std::span<const lane> lanes,
     limits_.push_back(lanes[i].limits);
     half_widths_m_.push_back(lanes[i].half_width_m);
     left_m_.push_back(lanes[i].half_width_m);
-    const auto beside =
-        std::ranges::find(lanes, lanes[i].opposite, &lane::name);
-    if (beside != lanes.end())
-      left_m_.back() += 2 * beside->half_width_m;
+    if (const auto beside = index.find(lanes[i].opposite);
+        beside != index.end())
+      left_m_.back() += 2 * lanes[beside->second].half_width_m;
   }
 }
 

@@ -29,8 +29,10 @@ public:
   /// @param sequence  Indices into `lanes`, at least one, each lane beginning
   ///                  where the one before ends (`road_map::make_route` sees
   ///                  to that); likewise the first after the last if closed.
+  /// @param index     Of all lanes.
   route(std::string name, std::span<const lane> lanes,
-        std::vector<std::size_t> sequence, bool closed);
+        std::vector<std::size_t> sequence, bool closed,
+        const lane_index& index);
 
   const std::string& name() const { return name_; }
   const world::path& path() const { return path_; }
