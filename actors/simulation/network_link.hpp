@@ -26,7 +26,7 @@ struct link_setup {
   link_way up;
   link_way down;
   std::optional<channel::link_faults> faults; ///< For tests.
-  station_id station = 0; ///< The vehicle, by which disturbances are counted.
+  station_id station = 0;  ///< The vehicle, by which disturbances are counted.
   time_point run_begins{}; ///< Outages are counted from here.
 };
 
