@@ -24,8 +24,7 @@ public:
                                   const messages::service_input& latest,
                                   time_point now) override {
     const auto request = latest.what.as<plan_request>();
-    const auto way = request ? world_->streets->find(request->way) : nullptr;
-    if (!way)
+    if (!request || !is_on(request->way))
       return {};
     const auto before = latest.in_use.as<world::trajectory>();
     world::trajectory plan;
@@ -33,12 +32,12 @@ public:
     const auto message = result.as<messages::its_pdu>();
     if (!message || !messages::etsi::decode(message->view(), said)
         || messages::read_suggestion(
-               said, vehicle_.station, *way, request->from.s_m,
+               said, vehicle_.station, *way_, request->from.s_m,
                world_->where->ahead_by(message->ahead), now, before.get(), plan)
                != messages::maneuver_fault::none)
       return not_used(judge_.judge_unreadable());
     const auto& own = request->own;
-    planners::judged_plan x{.way = *way,
+    planners::judged_plan x{.way = *way_,
                             .plan = plan,
                             .in_use = before.get(),
                             .own = {own.at, own.position, own.heading_rad,
@@ -59,6 +58,13 @@ public:
   }
 
 private:
+  /// @returns whether there is a route of that name, which is looked at now.
+  bool is_on(const std::string& name) {
+    if (!way_ || way_->name() != name)
+      way_ = world_->streets->find(name);
+    return way_ != nullptr;
+  }
+
   std::shared_ptr<const world::trajectory>
   own_plan(const messages::service_input& latest, time_point now) {
     if (!own_)
@@ -79,6 +85,7 @@ private:
 
   planning_world_ptr world_;
   offloading::vehicle_context vehicle_;
+  world::route_ptr way_; // of the last request
   // To compare with, when needed.
   std::shared_ptr<offloading::service_function> own_;
   planners::plan_judge judge_;
