@@ -181,7 +181,7 @@ void scene_interpreter::keep_to_lane(const track& known, time_point now,
 /// Adds bodies where those who cut in will be soon.
 void scene_interpreter::foresee_cutting_in() {
   const auto count = seen_ = others_.size();
-  assert(lanes_);
+  assert(way_->lanes);
   for (std::size_t i = 0; i < count; ++i)
     if (others_[i].cuts_in)
       for (const auto in_s : {0.7, 1.4}) {
