@@ -3,6 +3,7 @@
 
 #include "messages/v2x/georeference.hpp"
 #include "offloading/service.hpp"
+#include "world/vehicle/trajectory.hpp"
 
 #include <cstdint>
 #include <utility>
