@@ -2,122 +2,17 @@
 // what it must not refuse.
 #include "planners/judges/plan_judge.hpp"
 
-#include "tests/support/toy_streets.hpp"
+#include "tests/planners/judged_drive.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <string>
-#include <vector>
 
 using namespace sofof;
-using namespace sofof::planners;
-using namespace sofof::world;
-
-namespace {
-
-using namespace std::chrono_literals;
-
-/// A car on a straight street with a limit of 10 m/s, 200 m along it, and a
-/// provider that sends plans every 50 ms. The car follows each of them.
-struct judged_drive {
-  route_ptr way = street();
-  time_point now{10s};
-  double s_m = 200, d_m = 0, speed_mps = 10;
-  perception seen;
-  duration own_age{}; ///< Of what the car knows of itself.
-  bool granted = true;
-  std::uint64_t fingerprint = 0;
-  trajectory in_use;
-  /// Of the own planner's plans, up to 10 m/s; it has none without.
-  std::optional<double> own_accel_mps2;
-  plan_judge judge;
-
-  static route_ptr street(bool closed = false) {
-    const road_map map{
-        "street", {}, {toy::straight("street", {0, 0}, {2000, 0})}};
-    return map.make_route("street", std::vector<std::string>{"street"}, closed);
-  }
-
-  /// From where the car is.
-  /// @param slope  How far it goes to the left for each metre.
-  /// @param most_mps  It drives no faster.
-  trajectory plan(double accel_mps2, double slope = 0,
-                  double most_mps = 100) const {
-    trajectory x;
-    x.start = now;
-    auto s = s_m, v = speed_mps;
-    for (int k = 0; k <= 60; ++k) {
-      const auto stays = accel_mps2 < 0 ? v <= 0 : v >= most_mps;
-      const auto a = stays ? 0 : accel_mps2;
-      x.points.push_back(
-          {0.1 * k, s, {s, d_m + slope * (s - s_m)}, slope, 0, v, a});
-      const auto next = std::max(0.0, v + 0.1 * a);
-      s += 0.05 * (v + next);
-      v = next;
-    }
-    return x;
-  }
-
-  plan_verdict ask(const trajectory& x) {
-    seen.at = now;
-    judged_plan asked{*way,
-                      x,
-                      in_use.empty() ? nullptr : &in_use,
-                      {now - own_age, {s_m, d_m}, 0, speed_mps, 0, 0},
-                      s_m,
-                      seen,
-                      granted,
-                      now,
-                      fingerprint};
-    const auto own =
-        own_accel_mps2 ? plan(*own_accel_mps2, 0, 10) : trajectory{};
-    if (judge.wants_own_plan(asked))
-      asked.own_plan = &own;
-    return judge.judge(asked);
-  }
-
-  /// Drives along a plan for a while.
-  void follow(const trajectory& x, duration d = 50ms) {
-    in_use = x;
-    const auto p = x.at(now + d);
-    now += d;
-    s_m = p.s_m;
-    d_m = p.at.y_m;
-    speed_mps = p.speed_mps;
-  }
-
-  /// Sends such plans until one is refused, for at most so long.
-  /// @returns the check; empty for none.
-  template <class Make>
-  std::string refused_of(Make make, duration d) {
-    const auto end = now + d;
-    while (now < end) {
-      const auto x = make();
-      const auto verdict = ask(x);
-      if (verdict.refused)
-        return std::string{verdict.refused->check};
-      if (verdict.usable)
-        follow(x);
-      else
-        now += 50ms;
-    }
-    return {};
-  }
-  std::string refused_within(duration d, double accel_mps2, double slope = 0) {
-    return refused_of([&] { return plan(accel_mps2, slope); }, d);
-  }
-
-  void see_car(double s, double d, double heading_rad, double speed,
-               double accel = 0) {
-    seen.objects.push_back({{s, d}, heading_rad, speed, accel, 4.5, 1.8});
-  }
-};
-
-} // namespace
+using namespace sofof::test;
 
 TEST_CASE_FIXTURE(judged_drive, "a plan along the lane at the limit is used") {
   CHECK(refused_within(60s, 0).empty());
@@ -361,82 +256,6 @@ TEST_CASE_FIXTURE(judged_drive, "where braking hits as well, a plan is used") {
   CHECK(refused_within(200ms, -8).empty());
 }
 
-TEST_CASE_FIXTURE(judged_drive, "braking for nothing is obeyed at first, and "
-                                "refused within half a second") {
-  const auto begin = now;
-  CHECK(refused_within(2s, -8) == "braking");
-  CHECK(now - begin >= 400ms);
-  CHECK(now - begin <= 650ms);
-}
-
-TEST_CASE_FIXTURE(judged_drive, "braking for what the car sees 0.4 s later is "
-                                "no lie") {
-  const auto begin = now;
-  CHECK(refused_of(
-            [&] {
-              if (now - begin >= 400ms && seen.objects.empty())
-                see_car(s_m + 12, 0, 0, 0);
-              return plan(-7);
-            },
-            1s)
-            .empty());
-}
-
-TEST_CASE_FIXTURE(judged_drive, "stopping where the own planner would go on is "
-                                "refused soon") {
-  own_accel_mps2 = 1;
-  const auto begin = now;
-  CHECK(refused_within(10s, -3) == "standing");
-  CHECK(now - begin > 1s);
-  CHECK(now - begin < 4s);
-}
-
-TEST_CASE_FIXTURE(judged_drive,
-                  "driving at half the speed that the own planner "
-                  "would reach is refused within 10 s") {
-  own_accel_mps2 = 1;
-  speed_mps = 5;
-  CHECK(refused_within(10s, 0) == "standing");
-}
-
-TEST_CASE_FIXTURE(judged_drive, "plans that always drive soon, and never do, "
-                                "are refused within 5 s") {
-  own_accel_mps2 = 1;
-  speed_mps = 0;
-  const auto soon = [&] {
-    auto x = plan(1);
-    for (auto& p : x.points) { // stands for 1.8 s
-      const auto t = std::max(0.0, p.t_s - 1.8);
-      p.speed_mps = t;
-      p.accel_mps2 = t > 0 ? 1 : 0;
-      p.s_m = s_m + t * t / 2;
-      p.at = {p.s_m, d_m};
-    }
-    return x;
-  };
-  CHECK(refused_of(soon, 5s) == "standing");
-}
-
-TEST_CASE_FIXTURE(judged_drive, "plans that always brake now and speed up "
-                                "later are refused before the car stands for "
-                                "long") {
-  own_accel_mps2 = 1;
-  const auto later = [&] {
-    auto x = plan(1, 0, 10);
-    auto s = s_m, v = speed_mps;
-    for (auto& p : x.points) {
-      p.s_m = s;
-      p.at = {s, d_m};
-      p.speed_mps = v;
-      p.accel_mps2 = p.t_s < 0.45 ? -4 : 1;
-      s += 0.1 * v;
-      v = std::max(0.0, v + 0.1 * p.accel_mps2);
-    }
-    return x;
-  };
-  CHECK(refused_of(later, 5s) == "standing");
-}
-
 TEST_CASE_FIXTURE(judged_drive, "a plan of the future, or one that is over "
                                 "soon, is of no use") {
   auto x = plan(0);
@@ -453,31 +272,6 @@ TEST_CASE_FIXTURE(judged_drive, "a plan of the future, or one that is over "
     REQUIRE(verdict.useless);
     CHECK(verdict.useless->check == "length");
   }
-}
-
-TEST_CASE_FIXTURE(judged_drive, "a little slower than alone is good for ever") {
-  own_accel_mps2 = 0;
-  speed_mps = 7.5;
-  const auto slower = [&] {
-    auto x = plan(0);
-    for (auto& p : x.points)
-      p.s_m = s_m + 0.96 * (p.s_m - s_m);
-    return x;
-  };
-  CHECK(refused_of(slower, 120s).empty());
-}
-
-TEST_CASE_FIXTURE(judged_drive, "standing is used for as long as it takes") {
-  speed_mps = 0;
-  SUBCASE("where the own planner would stand, too") {
-    own_accel_mps2 = 0;
-  }
-  SUBCASE("for who comes to cross where nobody is granted anything") {
-    own_accel_mps2 = 1;
-    granted = false;
-    see_car(s_m + 12, 8, 1.5, 0);
-  }
-  CHECK(refused_within(60s, 0).empty());
 }
 
 TEST_CASE_FIXTURE(judged_drive, "how far a plan stays within each limit is "

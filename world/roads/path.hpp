@@ -47,7 +47,7 @@ public:
   double length_m() const { return length_m_; }
   bool closed() const { return closed_; }
 
-  /// Whether it bends nowhere.
+  /// Whether it bends nowhere, or is too short for its table to tell.
   bool is_straight() const { return table_.size() == 2; }
 
   /// Arc lengths of the given points, in order, m.

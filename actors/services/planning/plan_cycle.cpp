@@ -1,8 +1,6 @@
 // One planner at work, cycle by cycle, along one route.
 #include "actors/services/planning/plan_cycle.hpp"
 
-#include "base/thread_room.hpp"
-
 #include <cmath>
 #include <utility>
 
@@ -52,12 +50,12 @@ plan_cycle::run(time_point now, planners::planning_input from,
 planners::plan_report
 plan_cycle::run_in_scene(time_point now, const planners::planning_input& from) {
   const auto start = stopwatch_ ? stopwatch_() : now;
-  const thread_room lent{next_};
+  static thread_local world::trajectory next; // room that is used again
   const auto in_time = [&](int) { return stopwatch_() - start < deadline; };
   auto report = planner_->plan(
-      now, from, plan_.empty() ? nullptr : &plan_, next_,
+      now, from, plan_.empty() ? nullptr : &plan_, next,
       stopwatch_ ? planners::ocp::budget{in_time} : planners::ocp::budget{});
-  std::swap(plan_, next_);
+  std::swap(plan_, next);
   return report;
 }
 

@@ -68,7 +68,6 @@ private:
   std::unique_ptr<planners::trajectory_planner> planner_;
   planners::scene_interpreter scene_;
   world::trajectory plan_;
-  world::trajectory next_; // of one call
 };
 
 } // namespace sofof::actors
