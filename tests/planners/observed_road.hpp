@@ -74,7 +74,8 @@ inline double miss_m(const track& x, point truth) {
   return distance_m(x.centre(), truth);
 }
 
-inline void see(object_tracker& model, time_point at, const perceived_object& o) {
+inline void see(object_tracker& model, time_point at,
+                const perceived_object& o) {
   model.update(at, {&o, 1});
 }
 
