@@ -18,7 +18,8 @@ struct scenario_arguments {
   std::string seed;
   std::string length;
 
-  void add_to(CLI::App& command) {
+  /// @param with_length  Whether the length of a run is for the user to say.
+  void add_to(CLI::App& command, bool with_length = true) {
     command
         .add_option("FILE", file,
                     "Scenario file (TOML), or its name in config/")
@@ -26,8 +27,10 @@ struct scenario_arguments {
         ->type_name(" ");
     command.add_option("--seed", seed, "Seed of all randomness")
         ->type_name("N");
-    command.add_option("--duration", length, "Length of the run, with a unit")
-        ->type_name("600s");
+    if (with_length)
+      command
+          .add_option("--duration", length, "Length of the run, with a unit")
+          ->type_name("600s");
     command
         .add_option("--set", set,
                     "Change an option of the file, e.g. network.profile=ideal")
@@ -36,12 +39,18 @@ struct scenario_arguments {
         ->expected(1);
   }
 
-  scenario::scenario_definition load() const {
-    auto overrides = set;
+  /// @returns what changes the file, as `load_scenario` takes it.
+  std::vector<std::string> changes() const {
+    auto all = set;
     if (!seed.empty())
-      overrides.push_back("--seed=" + seed);
+      all.push_back("--seed=" + seed);
     if (!length.empty())
-      overrides.push_back("--duration=" + length);
+      all.push_back("--duration=" + length);
+    return all;
+  }
+
+  scenario::scenario_definition load() const {
+    const auto overrides = changes();
     const auto found = find_scenario(file);
     try {
       return scenario::load_scenario(found, overrides);

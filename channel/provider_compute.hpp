@@ -11,6 +11,9 @@
 
 namespace sofof::channel {
 
+/// A provider has no more of them.
+inline constexpr std::int64_t most_workers = 1024;
+
 /// All that tells one provider's computers from another's. Whoever needs the
 /// computing time of a result, or its mean, has it from here.
 struct provider_compute {

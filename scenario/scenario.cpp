@@ -114,7 +114,8 @@ void compute_options::visit_options(option_visitor& s) {
   if (s.has("model", model.has_value()))
     visit_profile(s, "model", model ? *model : model.emplace());
   if (s.has("workers", workers.has_value()))
-    s.field("workers", workers ? *workers : workers.emplace(1), {1, 1024});
+    s.field("workers", workers ? *workers : workers.emplace(1),
+            {1, channel::most_workers});
   if (s.has("more_computing", more_computing.has_value()))
     s.field("more_computing",
             more_computing ? *more_computing : more_computing.emplace(), 0ns);

@@ -63,6 +63,23 @@ bool all_in_time(const std::vector<session_group>& mix, std::int64_t vehicles,
   return true;
 }
 
+/// @returns with how many workers at least all are in time.
+std::optional<std::int64_t> workers_for(const std::vector<session_group>& mix,
+                                        std::int64_t vehicles) {
+  std::int64_t few = 0, enough = channel::most_workers;
+  if (!all_in_time(mix, vehicles, enough))
+    return std::nullopt;
+  while (enough - few > 1) {
+    const auto middle = (few + enough) / 2;
+    (all_in_time(mix, vehicles, middle) ? enough : few) = middle;
+  }
+  return enough;
+}
+
+std::string workers_of(std::int64_t count) {
+  return fmt::format("{} worker{}", count, count == 1 ? "" : "s");
+}
+
 std::string milliseconds(duration d) {
   return fmt::format("{:.1f} ms", to_milliseconds(d));
 }
@@ -115,6 +132,7 @@ provider_schedule schedule_of(const scenario_definition& all,
     (all_in_time(mix, middle, made.workers) ? made.in_time_with : most) =
         middle;
   }
+  made.workers_needed = workers_for(mix, made.vehicles);
   return made;
 }
 
@@ -128,12 +146,13 @@ bool provider_schedule::is_like(const provider_schedule& other) const {
 
 std::string to_comment(const provider_schedule& schedule) {
   auto text = fmt::format(
-      "# Provider \"{}\"{} ({} worker{}), vehicles at once: {}; load {:.0f} "
-      "%.\n",
+      "# Provider \"{}\"{} ({}), vehicles at once: {}; load {:.0f} %; all in "
+      "time with {}.\n",
       schedule.provider,
       schedule.alike > 0 ? fmt::format(" and {} like it", schedule.alike) : "",
-      schedule.workers, schedule.workers == 1 ? "" : "s", schedule.vehicles,
-      100 * schedule.load);
+      workers_of(schedule.workers), schedule.vehicles, 100 * schedule.load,
+      schedule.workers_needed ? workers_of(*schedule.workers_needed)
+                              : "no number of workers");
   for (const auto& one : schedule.services) {
     const auto later =
         one.running ? fmt::format(", {} once all run", stated(one.running))
@@ -154,12 +173,14 @@ std::string warning_of(const provider_schedule& schedule,
   return fmt::format(
       "provider \"{}\"{} may be too slow, with {} vehicles at once: a response "
       "of "
-      "\"{}\" {} {}, where {} are allowed; with up to {} all are in time.",
+      "\"{}\" {} {}, where {} are allowed; with up to {} all are in time{}.",
       schedule.provider,
       schedule.alike > 0 ? fmt::format(", like {} more,", schedule.alike) : "",
       schedule.vehicles, late->service, late->beginning ? "takes" : "has",
-      stated(late->beginning), milliseconds(late->limit),
-      schedule.in_time_with);
+      stated(late->beginning), milliseconds(late->limit), schedule.in_time_with,
+      schedule.workers_needed
+          ? ", or with " + workers_of(*schedule.workers_needed)
+          : "");
 }
 
 } // namespace sofof::scenario

@@ -38,6 +38,9 @@ struct provider_schedule {
   std::vector<service_response> services; ///< In the scenario's order.
   /// With how many vehicles at once all are in time, of those that there are.
   std::int64_t in_time_with = 0;
+  /// With how many workers all these vehicles are in time; nullopt if with no
+  /// number of them that a provider may have.
+  std::optional<std::int64_t> workers_needed;
 
   /// Whether all figures of another provider are the same.
   bool is_like(const provider_schedule& other) const;

@@ -59,6 +59,14 @@ inline words patient(int vehicles) {
                  "--set", "service.trajectory_planning.max_interarrival=200ms"};
 }
 
+/// `sofof keys` with these words.
+inline void do_keys(const workplace& at, words more) {
+  more.insert(more.begin(), "keys");
+  const auto end = at.run_sofof(more);
+  CAPTURE(end.err);
+  REQUIRE(end.code == 0);
+}
+
 /// A provider that runs.
 class provider_process {
 public:

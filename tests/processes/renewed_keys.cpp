@@ -6,13 +6,6 @@ using namespace sofof::test;
 
 namespace {
 
-void do_keys(const workplace& at, words more) {
-  more.insert(more.begin(), "keys");
-  const auto end = at.run_sofof(more);
-  CAPTURE(end.err);
-  REQUIRE(end.code == 0);
-}
-
 /// @returns how often a program has printed something so far.
 std::size_t times_printed(const program& run, std::string_view part) {
   const auto text = run.printed();

@@ -6,13 +6,6 @@ using namespace sofof::test;
 
 namespace {
 
-void do_keys(const workplace& at, words more) {
-  more.insert(more.begin(), "keys");
-  const auto end = at.run_sofof(more);
-  CAPTURE(end.err);
-  REQUIRE(end.code == 0);
-}
-
 /// Makes a CA with certificates for the provider and for stations.
 void make_keys(const workplace& at, const std::string& folder) {
   do_keys(at, {"init", folder});

@@ -58,7 +58,7 @@ TEST_CASE("a provider that may be too slow is told, and with how many vehicles "
   CHECK(warning({})
         == "provider \"mec\" may be too slow, with 6 vehicles at once: a "
            "response of \"trajectory_planning\" has no bound, where 50.0 "
-           "ms are allowed; with up to 1 all are in time.");
+           "ms are allowed; with up to 1 all are in time, or with 5 workers.");
   CHECK(warning({"policies.codm=response_time"}).empty());
 }
 
@@ -89,6 +89,27 @@ TEST_CASE("with one vehicle less than is in time it is in time, with one more "
   CHECK(most == 6); // 12 · 4.15 ms
   CHECK(!warning(set(7)).empty());
   CHECK(warning(set(6)).empty());
+}
+
+TEST_CASE("with one worker less than are needed some are late") {
+  const auto with = [](std::int64_t workers) {
+    return schedule(0, {"fleet.0.count=60", "compute.model=ideal",
+                        "compute.more_computing=4ms",
+                        "compute.workers=" + std::to_string(workers)});
+  };
+  const auto needed = with(1).workers_needed.value();
+  CHECK(needed > 5); // 60 times 4 ms in 50
+  CHECK(with(needed).in_time_with == 60);
+  CHECK(with(needed - 1).in_time_with < 60);
+  CHECK(with(needed).workers_needed == needed);
+}
+
+TEST_CASE("where a single result is late no number of workers helps") {
+  const auto slow =
+      schedule(0, {"compute.model=ideal", "compute.more_computing=60ms"});
+  CHECK(!slow.workers_needed);
+  CHECK(to_comment(slow).find("all in time with no number of workers")
+        != std::string::npos);
 }
 
 TEST_CASE("where computing times have no end, a quantile is stated") {
