@@ -14,6 +14,8 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,6 +29,9 @@ using runs_view = std::span<const recorded_run>;
 
 constexpr std::array<std::string_view, 3> servers{"workers", "uplink",
                                                   "downlink"};
+
+/// Of more providers pictures show those that were asked most.
+constexpr std::size_t most_drawn = 12;
 
 /// By the second.
 struct load_curve {
@@ -49,6 +54,46 @@ load_curves curves_of(const recorded_run& run) {
     to.max_wait_ms.push_back(line.max_wait_ms.value_or(none));
   }
   return all;
+}
+
+/// @returns the providers of a run that pictures show.
+std::set<std::string> drawn_of(const recorded_run& run,
+                               const load_curves& loads) {
+  std::map<std::string, double> asked;
+  for (const auto& [of, load] : loads) {
+    auto& most = asked[of.first];
+    most = std::max(most, run.figure(fmt::format("load.{}.{}.asked_share",
+                                                 of.first, of.second))
+                              .value_or(0));
+  }
+  std::vector<std::pair<double, std::string>> order;
+  for (const auto& [name, share] : asked)
+    order.emplace_back(-share, name);
+  std::ranges::sort(order);
+  std::set<std::string> drawn;
+  for (const auto& [share, name] :
+       std::span{order}.first(std::min(most_drawn, order.size())))
+    drawn.insert(name);
+  return drawn;
+}
+
+/// Leaves out what pictures do not show, and says so.
+void leave_drawn(section& to, runs_view runs, std::vector<load_curves>& loads) {
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const auto drawn = drawn_of(runs[i], loads[i]);
+    std::set<std::string> all;
+    for (const auto& [of, load] : loads[i])
+      all.insert(of.first);
+    if (drawn.size() == all.size())
+      continue;
+    std::erase_if(loads[i], [&drawn](const auto& one) {
+      return !drawn.contains(one.first.first);
+    });
+    to.blocks.emplace_back(paragraph{fmt::format(
+        "{}Pictures show the {} providers of {} that were asked most.",
+        runs.size() == 1 ? "" : fmt::format("`{}`: ", runs[i].label),
+        drawn.size(), all.size())});
+  }
 }
 
 std::string label(const recorded_run& run, const std::string& provider,
@@ -199,11 +244,17 @@ void add_silence(curve& to, double next_s, double each_s) {
 }
 
 /// One figure for each provider, of all that was sent to it and by it.
-void add_octets_by_time(section& to, const recorded_run& run) {
+/// @param loads  Of the providers that pictures show; none where no load was
+///               recorded.
+void add_octets_by_time(section& to, const recorded_run& run,
+                        const load_curves& loads) {
   constexpr double kilobits = 8e-3;
   const auto each_s =
       recording::seconds_of_line(run.figure("virtual_s").value_or(0));
+  const auto drawn = drawn_of(run, loads);
   for (const auto& [provider, cell] : octets_by_cell(run)) {
+    if (!drawn.empty() && !drawn.contains(provider))
+      continue;
     figure shown;
     shown.title = fmt::format("On the air of {} by time", provider);
     shown.x_label = "time, s";
@@ -264,11 +315,12 @@ section load_section(runs_view runs) {
     all.blocks.emplace_back(std::move(one));
     name_without_load(all, runs, loads);
   }
+  leave_drawn(all, runs, loads);
   add_curves(all, runs, loads);
   if (auto one = octets_of(runs); !one.rows.empty()) {
     all.blocks.emplace_back(std::move(one));
     if (runs.size() == 1)
-      add_octets_by_time(all, runs.front());
+      add_octets_by_time(all, runs.front(), loads.front());
   }
   return all;
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -121,6 +122,32 @@ TEST_CASE("load has a table, a figure for each kind of server, and octets in "
   CHECK(by_time.curves[0].name == "CAM up");
   CHECK(by_time.curves[0].x == std::vector<double>{0, 1, 2, 4, 5});
   CHECK(by_time.curves[0].y == std::vector<double>{8, 2.88, 0, 0, 1});
+}
+
+TEST_CASE("of many providers pictures show those that were asked most, and "
+          "tables show all") {
+  const loaded_folder folder;
+  std::string lines = "t_s,provider,what,jobs,asked_share,busy_share,"
+                      "mean_wait_ms,max_wait_ms\n";
+  std::string figures;
+  for (int k = 10; k < 30; ++k) {
+    const auto name = "mec_" + std::to_string(k);
+    lines += "0," + name + ",workers,1,0.01,0.01,1.0,1.0\n";
+    figures += ", \"" + name + "\": {\"workers\": {\"asked_share\": 0."
+               + std::to_string(k) + "}}";
+  }
+  folder.write("load.csv", lines);
+  folder.spoil("summary.json", "5420.2}}}", "5420.2}}}" + figures);
+  const auto all = describe_run(folder.path());
+  const auto* load = find(all, "Load");
+  REQUIRE(load);
+  CHECK(std::get<table>(load->blocks.at(0)).rows.size() == 20);
+  CHECK(std::get<paragraph>(load->blocks.at(1)).text
+        == "Pictures show the 12 providers of 20 that were asked most.");
+  const auto& workers = std::get<figure>(load->blocks.at(2));
+  REQUIRE(workers.curves.size() == 12);
+  CHECK(workers.curves.front().name == "mec_18");
+  CHECK(workers.curves.back().name == "mec_29");
 }
 
 TEST_CASE("beside a run with load one without any is named") {

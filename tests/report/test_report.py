@@ -412,6 +412,55 @@ class Page(unittest.TestCase):
                 f"from sources {digest.hexdigest()}" in page.read())
 
 
+def page_of(title, *blocks):
+    """A report with these blocks; returns its file."""
+    document = {"title": title, "subtitle": "", "sections": [
+        {"title": title, "blocks": list(blocks)}]}
+    with open(os.path.join(SOURCE, "apps", "report", "dist",
+                           "report.html")) as page:
+        text = page.read()
+    file = os.path.join(WORK, f"{title}.html")
+    with open(file, "w") as page:
+        packed = base64.b64encode(zlib.compress(
+            json.dumps(document).encode())).decode()
+        page.write(text.replace("%title%", title).replace(
+            "%document%", packed))
+    return file
+
+
+class LongTable(unittest.TestCase):
+    """Of ten thousand vehicles."""
+
+    def seen(self, sought):
+        rows = [[str(station), f"{station % 7}.5"]
+                for station in range(1001, 11001)]
+        file = page_of("Many", {"kind": "table", "title": "Vehicles",
+                                "columns": ["station", "stops"],
+                                "rows": rows})
+        with Browser() as page:
+            page.show(1280, 900)
+            page.open(file)
+            page.run("sofof.ready")
+            page.run(f"""(() => {{
+                const field = document.querySelector("input[type=search]");
+                field.value = {json.dumps(sought)};
+                field.dispatchEvent(new Event("input"));
+            }})()""")
+            self.assertEqual(page.errors, [])
+            return page.run("""[...document.querySelectorAll("tbody tr")].map(
+                (row) => row.firstChild.textContent)""")
+
+    def test_it_begins_with_its_first_rows(self):
+        self.assertEqual(self.seen(""),
+                         [str(one) for one in range(1001, 1201)])
+
+    def test_a_vehicle_far_down_is_found(self):
+        self.assertEqual(self.seen(" 10987 "), ["10987"])
+
+    def test_what_is_not_there_leaves_nothing(self):
+        self.assertEqual(self.seen("99999"), [])
+
+
 class Scatter(unittest.TestCase):
     """Dots with names: some upon each other, one far away."""
 
@@ -423,20 +472,10 @@ class Scatter(unittest.TestCase):
     def setUpClass(cls):
         dots = [{"name": name, "x": x, "y": y, "hollow": name == "always"}
                 for name, x, y in cls.DOTS]
-        document = {"title": "Dots", "subtitle": "", "sections": [
-            {"title": "Dots", "blocks": [
-                {"kind": "scatter", "title": "Dots", "x_label": "to the right",
-                 "y_label": "up", "dots": dots, "joined": [0, 5, 2, 3, 6],
-                 "caption": "A caption."}]}]}
-        with open(os.path.join(SOURCE, "apps", "report", "dist",
-                               "report.html")) as page:
-            text = page.read()
-        cls.file = os.path.join(WORK, "dots.html")
-        with open(cls.file, "w") as page:
-            packed = base64.b64encode(zlib.compress(
-                json.dumps(document).encode())).decode()
-            page.write(text.replace("%title%", "Dots").replace(
-                "%document%", packed))
+        cls.file = page_of("Dots", {
+            "kind": "scatter", "title": "Dots", "x_label": "to the right",
+            "y_label": "up", "dots": dots, "joined": [0, 5, 2, 3, 6],
+            "caption": "A caption."})
 
     def seen(self, width):
         with Browser() as page:

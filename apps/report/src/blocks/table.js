@@ -1,4 +1,4 @@
-// A table that can be sorted by any column and saved.
+// A table that can be sorted by any column, searched if it is long, and saved.
 import { element } from "../element.js";
 import { downloads } from "../pictures/download.js";
 import { on_print } from "../print.js";
@@ -63,6 +63,7 @@ class Table {
     this.body = element("tbody");
     this.whole = block.rows.length <= rows_at_first;
     this.with_same = false;
+    this.sought = "";
     this.heads = block.columns.map((_, i) => this.head(i));
     on_print(
       () => this.fill(true),
@@ -97,10 +98,29 @@ class Table {
   /// @param everything  On paper there are no buttons to ask for more.
   fill(everything = false) {
     const wanted = this.rows.filter(
-      (row) => everything || this.with_same || this.verdict_of(row) !== "same",
+      (row) =>
+        everything ||
+        ((this.with_same || this.verdict_of(row) !== "same") && this.is_sought(row)),
     );
     const shown = everything || this.whole ? wanted : wanted.slice(0, rows_at_first);
     this.body.replaceChildren(...shown.map((row) => this.row_element(row)));
+  }
+
+  is_sought(row) {
+    return row.some((cell) => cell.toLowerCase().startsWith(this.sought));
+  }
+
+  /// Leaves the rows with a cell that begins with what is written.
+  search() {
+    const field = element("input", {
+      type: "search",
+      placeholder: `in ${this.block.rows.length} rows`,
+      input: () => {
+        this.sought = field.value.trim().toLowerCase();
+        this.fill();
+      },
+    });
+    return element("label.choice", {}, "find ", field);
   }
 
   sort(i) {
@@ -156,6 +176,7 @@ export function table_block(block) {
       "div.head",
       {},
       block.title ? element("h3", {}, block.title) : null,
+      table.whole ? null : table.search(),
       downloads(block.title, { rows: () => [block.columns, ...block.rows] }),
     ),
     element(

@@ -2,10 +2,13 @@
 import { colour, is_calm, series_colour } from "../theme.js";
 import { event_groups } from "./event_groups.js";
 
-// However far away a car is, it is as many pixels long; of a crowd, fewer.
+// However far away a car is, it is as many pixels long; of many, fewer.
 const smallest_car = 15;
-const smallest_of_crowd = 5;
-const crowd = 100;
+const smallest_of = [
+  [2000, 2],
+  [100, 5],
+]; // from so many cars on
+const shapeless = 4; // pixels: shorter cars are dots
 const ring_s = 1.4; // of the reader's time
 
 function colour_of(vehicle, drive, time) {
@@ -13,12 +16,16 @@ function colour_of(vehicle, drive, time) {
   return series_colour(drive.place_of(drive.planner_at(vehicle.station, time)));
 }
 
+function smallest_among(count) {
+  return smallest_of.find(([many]) => count > many)?.[1] ?? smallest_car;
+}
+
 /// Draws a car as large as it is, or as can be seen: filled with its
 /// provider's colour, hollow when it plans for itself.
 export function draw_car(context, view, drive, vehicle, time) {
   const { front, rear, width } = drive.car;
   const length = front + rear;
-  const least = drive.vehicles.length > crowd ? smallest_of_crowd : smallest_car;
+  const least = smallest_among(drive.vehicles.length);
   const scale = Math.max(view.scale, least / length);
   // The middle stays in its place, however large the car is drawn.
   const to_middle = length / 2 - rear;
@@ -26,6 +33,11 @@ export function draw_car(context, view, drive, vehicle, time) {
   const y = vehicle.y + to_middle * Math.sin(vehicle.heading);
   const ink = colour_of(vehicle, drive, time);
   const [long, wide] = [length * scale, Math.max(width * scale, 0.45 * least)];
+  if (long < shapeless) {
+    context.fillStyle = ink;
+    context.fillRect(view.left(x) - long / 2, view.top(y) - long / 2, long, long);
+    return;
+  }
   context.save();
   context.translate(view.left(x), view.top(y));
   context.rotate(-vehicle.heading);

@@ -12,6 +12,7 @@ import { Timeline, clock_text } from "./timeline.js";
 const speeds = [1, 2, 5, 10, 20, 60];
 const small_step = 1; // s, of an arrow key
 const large_step = 10; // s, with Shift
+const most_named = 12; // providers, in the legend
 
 const players = []; // all of the page
 
@@ -77,9 +78,11 @@ function legend(drives) {
     "div.legend.of-map",
     {},
     entry("car.hollow", "planned on board", () => colour("local")),
-    ...[...providers.values()].map(([name, i]) =>
-      entry("car", `planned by ${name}`, () => series_colour(i)),
-    ),
+    ...(providers.size > most_named
+      ? [entry("car", "planned by a provider, in the colour of its area", () => series_colour(0))]
+      : [...providers.values()].map(([name, i]) =>
+          entry("car", `planned by ${name}`, () => series_colour(i)),
+        )),
     entry("area", "offloading area", () => series_colour(0)),
     ...event_groups
       .filter(({ key }) => key !== "other" && drives.some(({ groups }) => groups.counts.get(key)))

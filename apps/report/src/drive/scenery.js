@@ -20,7 +20,7 @@ export function draw_text(context, text, left, top, style, ink) {
   context.fillText(text, left, top);
 }
 
-function draw_provider(context, view, { name, at, area, sensors }, ink) {
+function draw_provider(context, view, { at, area, sensors }, ink) {
   context.strokeStyle = context.fillStyle = ink;
   context.lineWidth = 1.25;
   context.setLineDash([5, 4]);
@@ -39,7 +39,24 @@ function draw_provider(context, view, { name, at, area, sensors }, ink) {
   context.lineTo(left, top + 6);
   context.lineTo(left - 6, top);
   context.fill();
-  draw_text(context, name, left + 11, top, "600 12px", ink);
+}
+
+const letter_width = 7.7; // of a provider's name, pixels
+const line_height = 13;
+
+/// Beside each provider, as long as no other name stands there.
+function draw_names(context, view, providers) {
+  const taken = [];
+  providers.forEach(({ name, at }, i) => {
+    const [left, top] = [view.left(at[0]) + 11, view.top(at[1])];
+    const wide = name.length * letter_width;
+    const is_free = taken.every(
+      ([a, b, w]) => left + wide < a || a + w < left || Math.abs(top - b) >= line_height,
+    );
+    if (!is_free) return;
+    taken.push([left, top, wide]);
+    draw_text(context, name, left, top, "600 12px", series_colour(i));
+  });
 }
 
 /// Draws a bar of a round number of metres.
@@ -115,5 +132,6 @@ export function draw_scenery(context, view, drive) {
   drive.providers.forEach((provider, i) =>
     draw_provider(context, view, provider, series_colour(i)),
   );
+  draw_names(context, view, drive.providers);
   draw_scale(context, view);
 }
