@@ -24,6 +24,7 @@ void add_policies(CLI::App& app, int& exit_code);
 void add_solve(CLI::App& app, int& exit_code);
 void add_decode(CLI::App& app, int& exit_code);
 void add_encode(CLI::App& app, int& exit_code);
+void add_convert(CLI::App& app, int& exit_code);
 void add_keys(CLI::App& app, int& exit_code);
 
 } // namespace sofof::apps

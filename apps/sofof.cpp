@@ -78,6 +78,7 @@ int obey(int argc, char** argv) {
   sofof::apps::add_reproduce(app, exit_code);
   sofof::apps::add_report(app, exit_code);
   sofof::apps::add_explain(app, exit_code);
+  sofof::apps::add_convert(app, exit_code);
   sofof::apps::add_check(app, exit_code);
   sofof::apps::add_check_trace(app, exit_code);
   sofof::apps::add_policies(app, exit_code);

@@ -201,6 +201,10 @@ std::string summary_json(const metrics& m, const run_info& run,
     top.member("version", run.version);
     top.member("scenario", run.scenario);
     top.member("clock", run.clock);
+    top.member("start_unix_ms",
+               decimal{std::chrono::floor<std::chrono::milliseconds>(
+                           run.time_of_day.unix_time(run.start))
+                           .count()});
     top.member("profile", run.profile);
     top.member("lodm", run.lodm);
     top.member("codm", run.codm);

@@ -2,7 +2,6 @@
 #include "base/text/csv_reader.hpp"
 
 #include "base/input_error.hpp"
-#include "base/options/toml_file.hpp"
 
 #include <fmt/format.h>
 
@@ -27,14 +26,11 @@ bool parse(std::string_view text, T& value) {
 csv_reader::csv_reader(const std::filesystem::path& file,
                        std::span<const std::string_view> wanted, ending end,
                        std::span<const std::string_view> optional)
-    : file_{file.string()}, wanted_(wanted.begin(), wanted.end()) {
-  content_ = require_text(file, longest_results);
-  if (end == ending::killed) {
-    content_.resize(content_.rfind('\n') + 1); // npos + 1 is 0
-    if (content_.empty())
-      return; // killed before its first line
-  }
-  if (!read_row())
+    : file_{file.string()}, lines_{file}, was_killed_{end == ending::killed},
+      wanted_(wanted.begin(), wanted.end()) {
+  if (!read_row() && was_killed_)
+    return; // before its first line
+  if (count_ == 0)
     throw input_error{fmt::format("{}: the file is empty; its first line "
                                   "should name its columns.",
                                   file_)};
@@ -68,38 +64,55 @@ bool csv_reader::next() {
   return true;
 }
 
+/// Takes as many lines as belong to the next row.
+bool csv_reader::take_row() {
+  row_.clear();
+  for (;;) {
+    const auto line = lines_.next();
+    if (!line || (was_killed_ && !lines_.has_end()))
+      break;
+    if (row_.empty())
+      line_ = lines_.number();
+    row_ += *line;
+    if (!lines_.has_end())
+      break;
+    row_ += '\n';
+    if (std::ranges::count(row_, '"') % 2 == 0)
+      break; // no quote is open
+  }
+  at_ = 0;
+  return !row_.empty();
+}
+
 bool csv_reader::read_row() {
-  if (at_ == content_.size())
+  if (!take_row())
     return false;
-  line_ = next_line_;
   for (std::size_t i = 0;; ++i) {
     if (i == fields_.size())
       fields_.emplace_back();
     auto& field = fields_[i];
     field.clear();
-    if (at_ < content_.size() && content_[at_] == '"') {
+    if (at_ < row_.size() && row_[at_] == '"') {
       read_quoted(field);
     } else {
-      const auto end =
-          std::min(content_.find_first_of(",\n", at_), content_.size());
-      field.assign(content_, at_, end - at_);
+      const auto end = std::min(row_.find_first_of(",\n", at_), row_.size());
+      field.assign(row_, at_, end - at_);
       at_ = end;
     }
-    if (at_ == content_.size())
+    if (at_ == row_.size())
       refuse("this line is cut off.");
-    if (content_[at_++] == ',')
+    if (row_[at_++] == ',')
       continue;
-    ++next_line_;
     count_ = i + 1;
     return true;
   }
 }
 
 void csv_reader::read_quoted(std::string& field) {
-  for (++at_; at_ < content_.size(); ++at_) {
-    const auto c = content_[at_];
+  for (++at_; at_ < row_.size(); ++at_) {
+    const auto c = row_[at_];
     if (c == '"') {
-      const auto next = at_ + 1 < content_.size() ? content_[at_ + 1] : '\0';
+      const auto next = at_ + 1 < row_.size() ? row_[at_ + 1] : '\0';
       if (next == ',' || next == '\n') {
         ++at_;
         return;
@@ -108,11 +121,10 @@ void csv_reader::read_quoted(std::string& field) {
         break;
       ++at_;
     }
-    next_line_ += c == '\n' ? 1 : 0;
     field += c;
   }
-  refuse(at_ + 1 < content_.size() ? "a quote stands within a field."
-                                   : "this line is cut off.");
+  refuse(at_ + 1 < row_.size() ? "a quote stands within a field."
+                               : "this line is cut off.");
 }
 
 double csv_reader::number(std::size_t column) const {

@@ -1,6 +1,8 @@
 // Reads a table that a run has written, row by row, and believes nothing.
 #pragma once
 
+#include "base/files/line_file.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -62,15 +64,17 @@ public:
 private:
   static constexpr std::size_t missing = -1;
 
+  bool take_row();
   bool read_row();
   void read_quoted(std::string& field);
   [[noreturn]] void refuse(std::string_view why) const;
 
   std::string file_;
-  std::string content_;
-  std::size_t at_ = 0;        // of the next row, in the content
-  std::size_t line_ = 0;      // of this row
-  std::size_t next_line_ = 1; // of the next one
+  line_file lines_;
+  bool was_killed_ = false;
+  std::string row_;      // its line, or lines where a field has some
+  std::size_t at_ = 0;   // of the next field, in the row
+  std::size_t line_ = 0; // of this row
   std::vector<std::string> wanted_;
   std::vector<std::string> header_;
   std::vector<std::size_t> places_; // of the columns wanted

@@ -153,42 +153,60 @@ std::vector<episode_line> read_episodes(const fs::path& folder) {
   return all;
 }
 
+namespace of_cycles {
+
+constexpr columns names{
+    "provider", "service",    "provider_id", "station", "counter",
+    "cycle",    "received_s", "latency_ms",  "used",    "interarrival_ms"};
+constexpr columns newer{"input_age_ms",     "uplink_wait_ms", "uplink_ms",
+                        "rest_ms",          "queue_ms",       "computing_ms",
+                        "downlink_wait_ms", "downlink_ms"};
+enum { cycle = 5, received, latency, used, interarrival, input_age, parts };
+constexpr std::size_t part_count = 7;
+
+} // namespace of_cycles
+
+cycle_file::cycle_file(const fs::path& folder) {
+  const auto file = folder / "cycles.csv";
+  if (!fs::exists(file))
+    return;
+  rows_.emplace(file, of_cycles::names, ending_of(folder), of_cycles::newer);
+  has_parts_ = true;
+  for (std::size_t k = 0; k < of_cycles::part_count; ++k)
+    has_parts_ = has_parts_ && rows_->has(of_cycles::parts + k);
+}
+
+std::optional<cycle_line> cycle_file::next() {
+  using namespace of_cycles;
+  if (!rows_ || !rows_->next())
+    return std::nullopt;
+  const auto& row = *rows_;
+  const auto part = [&row](std::size_t k) { return row.number(parts + k); };
+  cycle_line line;
+  line.of = name_at(row, 0);
+  line.cycle = row.whole(cycle);
+  line.received_s = row.number(received);
+  line.latency_ms = row.number(latency);
+  line.used = row.flag(used);
+  line.interarrival_ms = row.number_if_any(interarrival);
+  if (row.has(input_age))
+    line.input_age_ms = row.number_if_any(input_age);
+  if (has_parts_)
+    line.parts = {part(0), part(1), part(2), part(3),
+                  part(4), part(5), part(6)};
+  return line;
+}
+
 std::optional<std::vector<cycle_line>>
 read_cycles(const fs::path& folder,
             const std::function<bool(const session_key&)>& wanted) {
-  static constexpr columns names{
-      "provider", "service",    "provider_id", "station",         "counter",
-      "cycle",    "received_s", "latency_ms",  "interarrival_ms", "used"};
-  static constexpr columns newer{
-      "input_age_ms", "uplink_wait_ms", "uplink_ms",        "rest_ms",
-      "queue_ms",     "computing_ms",   "downlink_wait_ms", "downlink_ms"};
-  enum { cycle = 5, received, latency, interarrival, used, input_age, parts };
-  const auto file = folder / "cycles.csv";
-  if (!fs::exists(file))
+  cycle_file rows{folder};
+  if (!rows.is_there())
     return std::nullopt;
-  csv_reader row{file, names, ending_of(folder), newer};
-  const auto part = [&row](std::size_t k) { return row.number(parts + k); };
-  bool has_parts = true;
-  for (std::size_t k = 0; k < 7; ++k)
-    has_parts = has_parts && row.has(parts + k);
   std::vector<cycle_line> all;
-  while (row.next()) {
-    auto of = name_at(row, 0);
-    if (wanted && !wanted(of))
-      continue;
-    auto& line = all.emplace_back();
-    line.of = std::move(of);
-    line.cycle = row.whole(cycle);
-    line.received_s = row.number(received);
-    line.latency_ms = row.number(latency);
-    line.used = row.flag(used);
-    line.interarrival_ms = row.number_if_any(interarrival);
-    if (row.has(input_age))
-      line.input_age_ms = row.number_if_any(input_age);
-    if (has_parts)
-      line.parts = {part(0), part(1), part(2), part(3),
-                    part(4), part(5), part(6)};
-  }
+  while (auto line = rows.next())
+    if (!wanted || wanted(line->of))
+      all.push_back(std::move(*line));
   return all;
 }
 
@@ -352,29 +370,33 @@ std::optional<run_summary> read_summary(const fs::path& folder) {
   return summary;
 }
 
+event_file::event_file(const fs::path& folder)
+    : name_{(folder / "events.jsonl").string()}, lines_{name_},
+      was_killed_{was_killed(folder)} {}
+
+std::optional<event_line> event_file::next() {
+  const auto text = lines_.next();
+  if (!text || (!lines_.has_end() && was_killed_))
+    return std::nullopt;
+  const auto place = fmt::format("{}:{}", name_, lines_.number());
+  if (!lines_.has_end())
+    throw input_error{fmt::format("{}: this line is cut off.", place)};
+  const event_reader line{*text, place};
+  return event_line{.t_s = line.seconds("t_s"),
+                    .what = line.text("what"),
+                    .of = {.provider = line.text("provider"),
+                           .service = line.text("service"),
+                           .provider_id = line.whole("provider_id"),
+                           .station = line.whole("station"),
+                           .counter = line.whole("counter")},
+                    .detail = line.text("detail")};
+}
+
 std::vector<event_line> read_events(const fs::path& folder) {
-  const auto file = folder / "events.jsonl";
-  const auto content = require_text(file, longest_results);
   std::vector<event_line> all;
-  std::string_view rest = content;
-  for (std::size_t number = 1; !rest.empty(); ++number) {
-    const auto end = rest.find('\n');
-    const auto place = fmt::format("{}:{}", file.string(), number);
-    if (end == rest.npos && was_killed(folder))
-      break;
-    if (end == rest.npos)
-      throw input_error{fmt::format("{}: this line is cut off.", place)};
-    const event_reader line{rest.substr(0, end), place};
-    rest.remove_prefix(end + 1);
-    all.push_back({.t_s = line.seconds("t_s"),
-                   .what = line.text("what"),
-                   .of = {.provider = line.text("provider"),
-                          .service = line.text("service"),
-                          .provider_id = line.whole("provider_id"),
-                          .station = line.whole("station"),
-                          .counter = line.whole("counter")},
-                   .detail = line.text("detail")});
-  }
+  event_file events{folder};
+  while (auto one = events.next())
+    all.push_back(std::move(*one));
   return all;
 }
 

@@ -1,6 +1,8 @@
 // The lines of a results folder's files, as docs/results.md describes them.
 #pragma once
 
+#include "base/files/line_file.hpp"
+#include "base/text/csv_reader.hpp"
 #include "recording/load_table.hpp"
 
 #include <cstdint>
@@ -148,11 +150,44 @@ std::optional<run_summary> read_summary(const std::filesystem::path& folder);
 std::vector<episode_line> read_episodes(const std::filesystem::path& folder);
 std::vector<event_line> read_events(const std::filesystem::path& folder);
 
+/// Reads events one after the other.
+class event_file {
+public:
+  explicit event_file(const std::filesystem::path& folder);
+
+  /// @returns the next one; nullopt after the last.
+  /// @throws input_error, as above.
+  std::optional<event_line> next();
+
+private:
+  std::string name_;
+  line_file lines_;
+  bool was_killed_;
+};
+
 /// @returns nothing when the run was told not to write this file.
 /// @param wanted  Which offloadings' lines; all, if empty.
 std::optional<std::vector<cycle_line>>
 read_cycles(const std::filesystem::path& folder,
             const std::function<bool(const session_key&)>& wanted = {});
+/// Reads results one after the other; none where the run was told not to write
+/// them.
+class cycle_file {
+public:
+  explicit cycle_file(const std::filesystem::path& folder);
+
+  /// @returns the next one; nullopt after the last.
+  /// @throws input_error, as above.
+  std::optional<cycle_line> next();
+
+  /// @returns whether there is a file at all.
+  bool is_there() const { return rows_.has_value(); }
+
+private:
+  std::optional<csv_reader> rows_;
+  bool has_parts_ = false;
+};
+
 std::optional<std::vector<track_line>>
 read_tracks(const std::filesystem::path& folder);
 

@@ -1,0 +1,87 @@
+// config.toml, summary.json and tracks.csv.
+#include "experiments/convert/recorded_drive.hpp"
+
+#include "base/input_error.hpp"
+#include "base/options/toml_file.hpp"
+#include "experiments/report/run_files.hpp"
+#include "messages/etsi/its_time.hpp"
+#include "scenario/load.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+
+namespace sofof::experiments::convert {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view columns[]{"t_s",         "station",     "x_m",
+                                     "y_m",         "heading_rad", "speed_mps",
+                                     "accel_mps2",  "s_m",         "lateral_m",
+                                     "plan_age_ms", "source"};
+
+const fs::path& check_tracks(const fs::path& file) {
+  if (!fs::exists(file))
+    throw input_error{fmt::format("{} is not there: the run was told not to "
+                                  "write tracks; run its config.toml again "
+                                  "with --set record.tracks=true.",
+                                  file.string())};
+  return file;
+}
+
+} // namespace
+
+std::uint64_t recorded_drive::unix_ns(double t_s) const {
+  constexpr double ns_per_s = 1e9;
+  return static_cast<std::uint64_t>(start_unix_ns
+                                    + std::llround(ns_per_s * t_s));
+}
+
+recorded_drive open_drive(const fs::path& folder) {
+  const auto config = folder / "config.toml";
+  if (!fs::exists(config))
+    throw input_error{fmt::format("{} is no results folder: there is no {}; "
+                                  "name a folder that a run has written.",
+                                  folder.string(), config.string())};
+  recorded_drive drive;
+  drive.folder = folder;
+  drive.what = scenario::parse_scenario(require_text(config), config);
+  drive.frame = messages::geo_frame{drive.what.world->map.origin()};
+  auto start_unix_ms =
+      static_cast<double>(messages::etsi::virtual_epoch_unix_ms);
+  if (const auto summary = report::read_summary(folder))
+    if (const auto x = summary->figures.find("start_unix_ms");
+        x != summary->figures.end())
+      start_unix_ms = x->second;
+  constexpr double ns_per_ms = 1e6;
+  drive.start_unix_ns = std::llround(ns_per_ms * start_unix_ms);
+  return drive;
+}
+
+track_file::track_file(const fs::path& folder)
+    : rows_{check_tracks(folder / "tracks.csv"), columns,
+            fs::exists(folder / "summary.json") ? csv_reader::ending::whole
+                                                : csv_reader::ending::killed} {}
+
+std::optional<track_row> track_file::next() {
+  if (!rows_.next())
+    return std::nullopt;
+  enum { t, station, x, y, heading, speed, accel, s, lateral, age, source };
+  if (rows_.text(source) != "remote" && rows_.text(source) != "local")
+    rows_.refuse(source, "is neither \"local\" nor \"remote\"");
+  return track_row{.t_s = rows_.number(t),
+                   .station = rows_.whole(station),
+                   .at = {rows_.number(x), rows_.number(y)},
+                   .heading_rad = rows_.number(heading),
+                   .speed_mps = rows_.number(speed),
+                   .accel_mps2 = rows_.number(accel),
+                   .s_m = rows_.number(s),
+                   .lateral_m = rows_.number(lateral),
+                   .plan_age_ms = rows_.number(age),
+                   .remote = rows_.text(source) == "remote"};
+}
+
+} // namespace sofof::experiments::convert
