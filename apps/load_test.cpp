@@ -18,7 +18,7 @@ namespace sofof::apps {
 
 namespace {
 
-struct arguments {
+struct load_arguments {
   scenario_arguments what;
   experiments::load_test::load_options options;
   std::string provider, measured, within, out;
@@ -46,7 +46,7 @@ void set_provider(experiments::load_test::load_options& to,
 void add_load_test(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand(
       "load-test", "Find how many vehicles a provider carries");
-  auto args = std::make_shared<arguments>();
+  auto args = std::make_shared<load_arguments>();
   args->what.add_to(*command, false);
   command
       ->add_option("--provider", args->provider,
