@@ -2,8 +2,7 @@
 #include "experiments/convert/recorded_drive.hpp"
 
 #include "base/input_error.hpp"
-#include "base/options/toml_file.hpp"
-#include "experiments/report/run_files.hpp"
+#include "experiments/report/recorded_run.hpp"
 #include "messages/etsi/its_time.hpp"
 #include "scenario/load.hpp"
 
@@ -41,14 +40,10 @@ std::uint64_t recorded_drive::unix_ns(double t_s) const {
 }
 
 recorded_drive open_drive(const fs::path& folder) {
-  const auto config = folder / "config.toml";
-  if (!fs::exists(config))
-    throw input_error{fmt::format("{} is no results folder: there is no {}; "
-                                  "name a folder that a run has written.",
-                                  folder.string(), config.string())};
   recorded_drive drive;
   drive.folder = folder;
-  drive.what = scenario::parse_scenario(require_text(config), config);
+  drive.what = scenario::parse_scenario(report::config_of(folder),
+                                        folder / "config.toml");
   drive.frame = messages::geo_frame{drive.what.world->map.origin()};
   auto start_unix_ms =
       static_cast<double>(messages::etsi::virtual_epoch_unix_ms);

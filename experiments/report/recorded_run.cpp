@@ -42,18 +42,22 @@ recorded_run::place_of(const std::string& provider) const {
   return std::nullopt;
 }
 
-recorded_run open_run(const fs::path& folder) {
+std::string config_of(const fs::path& folder) {
   const auto config = folder / "config.toml";
   if (!fs::exists(config))
     throw input_error{fmt::format("{} is no results folder: there is no {}; "
                                   "name a folder that a run has written.",
                                   folder.string(), config.string())};
+  return require_text(config);
+}
+
+recorded_run open_run(const fs::path& folder) {
   recorded_run run;
   run.folder = folder;
   run.label = name_of(folder);
   // What a run has written is not to be changed: notes on it are not told.
-  run.config_toml = require_text(config);
-  run.what = scenario::parse_scenario(run.config_toml, config);
+  run.config_toml = config_of(folder);
+  run.what = scenario::parse_scenario(run.config_toml, folder / "config.toml");
   run.episodes = read_episodes(folder);
   run.cycles = read_cycles(folder);
   if (auto summary = read_summary(folder)) {

@@ -37,6 +37,10 @@ struct recorded_run {
   std::optional<std::size_t> place_of(const std::string& provider) const;
 };
 
+/// @returns the text of its config.toml.
+/// @throws input_error when it is no results folder.
+std::string config_of(const std::filesystem::path& folder);
+
 /// @throws input_error when it is no results folder, or broken.
 recorded_run open_run(const std::filesystem::path& folder);
 
