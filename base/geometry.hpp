@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sofof {
@@ -58,7 +59,9 @@ public:
   /// Regular polygon inscribed in a circle; the first corner lies due east.
   static polygon regular(point centre, double radius_m, unsigned corners);
 
-  std::span<const point> corners() const { return corners_; }
+  /// @returns them as given; of a temporary polygon, a copy that lives on.
+  std::span<const point> corners() const& { return corners_; }
+  std::vector<point> corners() && { return std::move(corners_); }
 
   /// Ray casting near the rim, O(corners); O(1) in the middle and far away.
   bool contains(point p) const;

@@ -88,11 +88,9 @@ std::string scenery_features(const recorded_drive& drive) {
                                                       house.corners.end()}),
                                 R"("kind":"house")"));
   for (const auto& one : drive.what.providers) {
-    const auto corners = one.area().corners();
-    append_feature(
-        all, feature("Polygon",
-                     ring_of(drive.frame, {corners.begin(), corners.end()}),
-                     named("area", one.name)));
+    append_feature(all, feature("Polygon",
+                                ring_of(drive.frame, one.area().corners()),
+                                named("area", one.name)));
     append_feature(all, feature("Point", place_of(drive.frame, one.position_m),
                                 named("provider", one.name)));
   }

@@ -119,10 +119,8 @@ void writer::show_scenery() {
   for (const auto& one : map.buildings())
     houses.push_back({one.corners, thin_m, house, true});
   std::vector<std::vector<point>> corners;
-  for (const auto& one : drive_.what.providers) {
-    const auto of = one.area().corners();
-    corners.emplace_back(of.begin(), of.end());
-  }
+  for (const auto& one : drive_.what.providers)
+    corners.push_back(one.area().corners());
   for (std::size_t i = 0; i < corners.size(); ++i)
     areas.push_back({corners[i], thin_m, colour_of(i), true});
   const foxglove::entity all[]{{.id = "lanes", .lines = lanes},

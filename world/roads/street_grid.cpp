@@ -190,7 +190,8 @@ private:
             params_.half_width_m,
             {{0, params_.limit_mps}},
             {},
-            rank};
+            rank,
+            {}};
   }
 
   const street_grid_params& params_;
