@@ -278,3 +278,78 @@ TEST_CASE("tshark finds nothing wrong with ten thousand messages, and reads "
            "cpm.value", "its.longitudinalAccelerationValue",
            "its.lateralAccelerationValue", "cpm.numberOfPerceivedObjects"});
 }
+
+TEST_CASE("decode reads in a capture the messages that the run has sent") {
+  const auto& folder = captured_run();
+  const auto decoded = run_sofof({"decode", "--pcap", "air.pcap"}, folder);
+  CHECK(decoded.code == 0);
+  CHECK(decoded.err == "");
+  std::istringstream lines{decoded.out};
+  std::size_t count = 0;
+  std::vector<std::string> some{"decode"}, messages;
+  for (std::string line; std::getline(lines, line); ++count) {
+    const auto x = ordered_json::parse(line);
+    const auto& frame = frames().at(count);
+    REQUIRE(x.at("packet") == count + 1);
+    REQUIRE(x.at("unix_ns") == frame.unix_ns);
+    REQUIRE(x.at("port") == frame.port);
+    if (count % 100 != 0)
+      continue;
+    some.push_back(to_hex(frame.message));
+    messages.push_back(x.at("message").dump());
+  }
+  CHECK(count == frames().size());
+  std::istringstream ours{run_sofof(some, folder).out};
+  for (const auto& message : messages) {
+    std::string line;
+    REQUIRE(std::getline(ours, line));
+    REQUIRE(ordered_json::parse(line).dump() == message);
+  }
+}
+
+TEST_CASE("decode reads a capture in Wireshark's own format, and from a pipe") {
+  const auto& folder = captured_run();
+  const auto whole = run_sofof({"decode", "--pcap", "air.pcap"}, folder).out;
+  const auto piped = program{
+      {"-c", "exec \"$0\" decode --pcap - < air.pcap", SOFOF_PROGRAM},
+      folder,
+      {.program =
+           "/bin/sh"}}.wait();
+  CHECK((piped.out == whole));
+  const auto editcap = find_program("editcap");
+  if (!editcap) {
+    MESSAGE("editcap is not installed: nobody writes a pcapng file.");
+    return;
+  }
+  const auto turned = program{
+      {"-F", "pcapng", "air.pcap", "air.pcapng"},
+      folder,
+      {.program =
+           *editcap}}.wait();
+  REQUIRE(turned.code == 0);
+  CHECK((run_sofof({"decode", "--pcap", "air.pcapng"}, folder).out == whole));
+}
+
+TEST_CASE("decode says where a capture ends too early, and what is none") {
+  const workplace at;
+  const auto capture = read_file(captured_run() / "air.pcap");
+  at.write("cut.pcap", capture.substr(0, 1000));
+  const auto cut = at.run_sofof({"decode", "--pcap", "cut.pcap"});
+  CHECK(cut.code == 1);
+  CHECK(cut.out.starts_with("{\"packet\": 1, "));
+  CHECK(cut.err.starts_with("sofof: cut.pcap: the capture ends here: "));
+  at.write("none.pcap", "t_s,station\n1,101\n, a table and no capture");
+  fs::create_directory(at / "folder");
+  auto other = capture;
+  other[20] = 101; // packets begin with IP
+  at.write("other.pcap", other);
+  for (const auto* file :
+       {"none.pcap", "missing.pcap", "folder", "other.pcap"}) {
+    CAPTURE(file);
+    const auto end = at.run_sofof({"decode", "--pcap", file});
+    CAPTURE(end.err);
+    CHECK(end.code == 2);
+    CHECK(end.err.starts_with(std::string{"sofof: "} + file + ": "));
+    CHECK(end.err.find('\n') + 1 == end.err.size());
+  }
+}
