@@ -238,6 +238,7 @@ private:
   void answer(std::vector<open_request> requests, time_point now);
   void refuse(const messages::service_request& request, peer_id from,
               std::string_view why);
+  void tell(const messages::service_response& response, peer_id to);
   question question_of(const open_request& open, time_point now);
   std::vector<policies::central_decision>
   ask_policy(std::vector<policies::request_view> asked, time_point now);

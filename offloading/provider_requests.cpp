@@ -73,7 +73,15 @@ void provider::refuse(const messages::service_request& request, peer_id from,
                                  std::string{why}});
   if (request.provider == setup_.id)
     trace_.add(step::response_sent, response, now_);
-  port_.send(from, response);
+  tell(response, from);
+}
+
+void provider::tell(const messages::service_response& response, peer_id to) {
+  for (const auto& v : response.verdicts) {
+    assert(v.accepted == v.session.is_remote());
+    port_.record(messages::verdict_record{now_, v.session, v.accepted, v.why});
+  }
+  port_.send(to, response);
 }
 
 // Answers requests that are decided together.
@@ -243,12 +251,11 @@ void provider::respond(const open_request& open,
     } else {
       v.instead = std::get<policies::refused>(decision.what).instead;
     }
-    assert(v.accepted == v.session.is_remote());
     response.verdicts.push_back(std::move(v));
   }
   assert(response.verdicts.size() == request.services.size());
   trace_.add(step::response_sent, response, now);
-  port_.send(open.from, response);
+  tell(response, open.from);
 }
 
 void provider::start(station_record& station,

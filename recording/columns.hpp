@@ -78,6 +78,14 @@ struct disturbed_row {
   const disturbed_messages& of;
 };
 
+/// Of a plan, where the car shall be then.
+struct plan_row {
+  const messages::track_record& x;
+  row_context in;
+  world::trajectory_point of;
+  duration ahead;
+};
+
 struct track_row {
   const messages::track_record& x;
   row_context in;
@@ -278,6 +286,16 @@ inline constexpr csv_column<track_row> of_tracks[]{
      [](const auto& r) -> std::string_view {
        return r.x.remote ? "remote" : "local";
      }},
+};
+
+inline constexpr csv_column<plan_row> of_plans[]{
+    {"t_s", [](const auto& r) { return seconds(r.x.at - r.in.start); }},
+    {"station", [](const auto& r) { return r.x.ego.own.station.value(); }},
+    {"ahead_s", [](const auto& r) { return seconds(r.ahead); }},
+    {"x_m", [](const auto& r) { return rounded(r.of.at.x_m, length_places); }},
+    {"y_m", [](const auto& r) { return rounded(r.of.at.y_m, length_places); }},
+    {"speed_mps",
+     [](const auto& r) { return rounded(r.of.speed_mps, length_places); }},
 };
 
 inline constexpr csv_column<vehicle_row> of_vehicles[]{

@@ -18,6 +18,10 @@ constexpr duration distribution_width = std::chrono::microseconds{100};
 
 constexpr int timing_places = 6;
 
+/// What pictures of plans need: docs/results.md.
+constexpr duration plans_period = std::chrono::milliseconds{200};
+constexpr duration plan_step = std::chrono::milliseconds{500};
+
 std::optional<pcap_file> capture_of(const run_info& run) {
   if (run.pcap.empty())
     return std::nullopt;
@@ -44,6 +48,8 @@ result_files::result_files(std::filesystem::path folder, const run_info& run)
     tracks_.emplace(folder_ / "tracks.csv", columns::of_tracks);
   if (run.margins)
     margins_.emplace(folder_ / "margins.csv", columns::of_margins);
+  if (run.plans)
+    plans_.emplace(folder_ / "plans.csv", columns::of_plans);
   if (run.trace)
     trace_.emplace(folder_ / "protocol_trace.csv", columns::of_trace);
   if (!run.map_toml.empty())
@@ -92,6 +98,14 @@ void result_files::write(const messages::episode_record& x) {
 void result_files::write(const messages::track_record& x) {
   if (tracks_)
     tracks_->write({x, {"", start_}});
+  if (!plans_ || !x.plan)
+    return;
+  const auto period = (x.at - start_) / plans_period;
+  const auto [last, is_first] = planned_.try_emplace(x.ego.own.station, period);
+  if (!is_first && std::exchange(last->second, period) == period)
+    return;
+  for (auto t = x.at; t <= x.plan->end(); t += plan_step)
+    plans_->write({x, {"", start_}, x.plan->at(t), t - x.at});
 }
 
 void result_files::write(const messages::claim_record& x) {
@@ -158,6 +172,8 @@ void result_files::flush() {
     tracks_->flush();
   if (margins_)
     margins_->flush();
+  if (plans_)
+    plans_->flush();
   if (claims_)
     claims_->flush();
   if (scenes_)
@@ -181,6 +197,8 @@ void result_files::finish(const metrics& all, const run_info& run,
     tracks_->close();
   if (margins_)
     margins_->close();
+  if (plans_)
+    plans_->close();
   if (claims_)
     claims_->close();
   if (scenes_)

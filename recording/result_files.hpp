@@ -10,6 +10,7 @@
 #include "recording/pcap_file.hpp"
 #include "recording/run_info.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -78,6 +79,8 @@ private:
   std::optional<csv_file<cycle_row>> cycles_;
   std::optional<csv_file<track_row>> tracks_;
   std::optional<csv_file<margin_row>> margins_;
+  std::optional<csv_file<plan_row>> plans_;
+  std::map<station_id, std::int64_t> planned_;      // in which period, last
   std::optional<csv_file<claim_row>> claims_;       // once there is one
   std::optional<csv_file<scene_row>> scenes_;       // likewise
   std::optional<csv_file<response_row>> responses_; // likewise

@@ -31,7 +31,7 @@ constexpr std::string_view files_of_a_run[] = {
     "octets.csv",        "octets.csv.tmp",   "disturbed.csv",
     "disturbed.csv.tmp", "claims.csv",       "protocol_trace.csv",
     "scene.csv",         "responses.csv",    "energy.csv",
-    "energy.csv.tmp"};
+    "energy.csv.tmp",    "plans.csv"};
 
 bool is_provider_map(std::string_view name) {
   if (!name.starts_with(provider_map_prefix))

@@ -82,6 +82,7 @@ struct run_info {
   bool cycles = true;   ///< Write cycles.csv and responses.csv.
   bool tracks = true;   ///< Write tracks.csv.
   bool margins = false; ///< Write margins.csv.
+  bool plans = false;   ///< Write plans.csv.
   bool trace = false;   ///< Write protocol_trace.csv.
   std::string pcap;     ///< Where to capture all ITS messages; empty: nowhere.
   messages::etsi::its_clock time_of_day;

@@ -41,6 +41,7 @@ struct record_options {
   bool cycles = true;   ///< Write cycles.csv and responses.csv.
   bool tracks = true;   ///< Write tracks.csv.
   bool margins = false; ///< Write margins.csv.
+  bool plans = false;   ///< Write plans.csv.
   bool trace = false;   ///< Write protocol_trace.csv.
 
   void visit_options(option_visitor& s) {
@@ -51,6 +52,7 @@ struct record_options {
                                 "step.");
     s.field("cycles", cycles);
     s.field("margins", margins);
+    s.field("plans", plans);
     s.field("trace", trace);
     s.field("tracks", tracks);
   }

@@ -166,7 +166,7 @@ messages::ego_state driven_car::ego() const {
 }
 
 messages::track_record driven_car::track(bool remote) const {
-  return {at_, ego(), lateral_m_, at_ - plan_created_, remote};
+  return {at_, ego(), lateral_m_, at_ - plan_created_, remote, plan_};
 }
 
 void driven_car::count_off_road() {

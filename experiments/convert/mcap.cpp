@@ -28,6 +28,7 @@ constexpr colour street{0.45, 0.45, 0.47, 1}, house{0.6, 0.58, 0.55, 1},
     on_board{0.85, 0.85, 0.85, 1};
 constexpr double car_height_m = 1.5;
 constexpr double thin_m = 0.1;
+constexpr double plan_width_m = 0.4;
 
 /// Of scenes and places on Earth: who looks needs no more.
 constexpr double scene_period_s = 0.2;
@@ -47,6 +48,7 @@ struct car_channels {
   mcap_writer::channel location = 0, state = 0;
   std::optional<mcap_writer::channel> result{}; ///< Once it gets one.
   double shown_s = -1;                          ///< In the scene, last.
+  bool is_remote = false;                       ///< Its plan, as of then.
   std::size_t provider = 0;                     ///< That planned for it last.
 };
 
@@ -72,6 +74,7 @@ public:
   void add(const track_row& x);
   void add(const report::event_line& x);
   void add(const report::cycle_line& x);
+  void add(const planned_path& x);
   void finish() { file_.finish(); }
 
 private:
@@ -134,6 +137,7 @@ void writer::show_scenery() {
 
 void writer::add(const track_row& x) {
   auto& of = channels_of(x.station);
+  of.is_remote = x.remote;
   const auto at = drive_.unix_ns(x.t_s);
   file_.write(transforms_, at,
               foxglove::transform(at, fmt::format("car{}", x.station),
@@ -208,6 +212,21 @@ void writer::add(const report::cycle_line& x) {
   file_.write(*of.result, drive_.unix_ns(x.received_s), text);
 }
 
+/// A line in the colour of who plans, until the next one is told.
+void writer::add(const planned_path& x) {
+  const auto at = drive_.unix_ns(x.t_s);
+  const auto& of = channels_of(x.station);
+  const foxglove::entity::line way{
+      x.points, plan_width_m, of.is_remote ? colour_of(of.provider) : on_board};
+  const auto id = fmt::format("plan of {}", x.station);
+  const foxglove::entity entity{
+      .id = id, .lifetime_s = kept_for * scene_period_s, .lines = {&way, 1}};
+  file_.write(scene_, at, foxglove::scene(at, {&entity, 1}));
+}
+
+double time_of(const planned_path& x) {
+  return x.t_s;
+}
 double time_of(const track_row& x) {
   return x.t_s;
 }
@@ -242,20 +261,24 @@ void write_mcap(const recorded_drive& drive, const sink& put) {
   track_file track_rows{drive.folder};
   report::event_file event_rows{drive.folder};
   report::cycle_file cycle_rows{drive.folder};
+  plan_file plan_rows{drive.folder};
   stream tracks{track_rows};
   stream events{event_rows};
   stream cycles{cycle_rows};
+  stream plans{plan_rows};
   for (;;) {
-    const auto first =
-        std::min({tracks.next_s(), events.next_s(), cycles.next_s()});
+    const auto first = std::min(
+        {tracks.next_s(), events.next_s(), cycles.next_s(), plans.next_s()});
     if (std::isinf(first))
       break;
     if (events.next_s() == first)
       events.move_to(to);
     else if (cycles.next_s() == first)
       cycles.move_to(to);
-    else
+    else if (tracks.next_s() == first)
       tracks.move_to(to);
+    else
+      plans.move_to(to);
   }
   to.finish();
 }

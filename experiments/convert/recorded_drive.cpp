@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <string_view>
+#include <utility>
 
 namespace sofof::experiments::convert {
 
@@ -29,6 +30,11 @@ const fs::path& check_tracks(const fs::path& file) {
                                   "with --set record.tracks=true.",
                                   file.string())};
   return file;
+}
+
+csv_reader::ending ending_of(const fs::path& folder) {
+  return fs::exists(folder / "summary.json") ? csv_reader::ending::whole
+                                             : csv_reader::ending::killed;
 }
 
 } // namespace
@@ -57,9 +63,7 @@ recorded_drive open_drive(const fs::path& folder) {
 }
 
 track_file::track_file(const fs::path& folder)
-    : rows_{check_tracks(folder / "tracks.csv"), columns,
-            fs::exists(folder / "summary.json") ? csv_reader::ending::whole
-                                                : csv_reader::ending::killed} {}
+    : rows_{check_tracks(folder / "tracks.csv"), columns, ending_of(folder)} {}
 
 std::optional<track_row> track_file::next() {
   if (!rows_.next())
@@ -77,6 +81,36 @@ std::optional<track_row> track_file::next() {
                    .lateral_m = rows_.number(lateral),
                    .plan_age_ms = rows_.number(age),
                    .remote = rows_.text(source) == "remote"};
+}
+
+plan_file::plan_file(const fs::path& folder) {
+  static constexpr std::string_view names[]{"t_s", "station", "x_m", "y_m"};
+  if (const auto file = folder / "plans.csv"; fs::exists(file))
+    rows_.emplace(file, names, ending_of(folder));
+  is_over_ = !rows_ || !read_on();
+}
+
+/// Reads the next row. @returns false after the last one.
+bool plan_file::read_on() {
+  if (!rows_->next())
+    return false;
+  enum { t, station, x, y };
+  ahead_ = {.t_s = rows_->number(t),
+            .station = rows_->whole(station),
+            .points = {{rows_->number(x), rows_->number(y)}}};
+  return true;
+}
+
+std::optional<planned_path> plan_file::next() {
+  if (is_over_)
+    return std::nullopt;
+  auto path = std::move(ahead_);
+  for (;;) {
+    is_over_ = !read_on();
+    if (is_over_ || ahead_.t_s != path.t_s || ahead_.station != path.station)
+      return path;
+    path.points.push_back(ahead_.points.front());
+  }
 }
 
 } // namespace sofof::experiments::convert

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 namespace sofof::experiments::convert {
 
@@ -50,6 +51,30 @@ public:
 
 private:
   csv_reader rows_;
+};
+
+/// Where a car was going to drive.
+struct planned_path {
+  double t_s = 0; ///< That it followed this then.
+  std::uint64_t station = 0;
+  std::vector<point> points; ///< Of the rear axle, m, in order of time.
+};
+
+/// Reads plans.csv, in order of time, a plan in memory at once; nothing where
+/// the run was not told to write it.
+class plan_file {
+public:
+  explicit plan_file(const std::filesystem::path& folder);
+
+  /// @returns the next one; nullopt after the last. @throws input_error.
+  std::optional<planned_path> next();
+
+private:
+  bool read_on();
+
+  std::optional<csv_reader> rows_;
+  planned_path ahead_; ///< The row that is read, of the next plan.
+  bool is_over_ = false;
 };
 
 } // namespace sofof::experiments::convert

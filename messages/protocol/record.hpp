@@ -8,9 +8,11 @@
 #include "messages/protocol/trace.hpp"
 #include "world/vehicle/plan_comfort.hpp"
 #include "world/vehicle/ride_comfort.hpp"
+#include "world/vehicle/trajectory.hpp"
 #include "world/vehicle/trip.hpp"
 
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,6 +40,14 @@ struct decision_record {
   station_id station = 0;
   service_name service;
   bool accepted = false;
+};
+
+/// A provider has decided about one requested service.
+struct verdict_record {
+  time_point at;
+  session_id session; ///< Counter 0 when refused.
+  bool accepted = false;
+  std::string why; ///< As it is told to the vehicle.
 };
 
 /// One received result of a remote service.
@@ -115,13 +125,14 @@ struct episode_record {
   std::string because{}; ///< A value and its limit, or who wanted it.
 };
 
-/// Where a vehicle is, and how old the plan is that it follows.
+/// Where a vehicle is, and the plan that it follows.
 struct track_record {
   time_point at;
   ego_state ego;
   double lateral_m = 0; ///< Offset of the rear axle from the lane's centre.
   duration plan_age{};
   bool remote = false;
+  std::shared_ptr<const world::trajectory> plan{}; ///< May be null.
 };
 
 /// How safely a vehicle drove since its last such record.
@@ -250,10 +261,10 @@ struct collision_record {
 /// All that can happen, the only list of it. Records stay in their process: a
 /// new one is added here, made where it happens, and used by whom it concerns.
 using record =
-    std::variant<event_record, decision_record, cycle_record, work_record,
-                 episode_record, track_record, safety_record, collision_record,
-                 drive_record, trip_record, claim_record, scene_record,
-                 stage_record, response_record, prediction_record,
+    std::variant<event_record, decision_record, verdict_record, cycle_record,
+                 work_record, episode_record, track_record, safety_record,
+                 collision_record, drive_record, trip_record, claim_record,
+                 scene_record, stage_record, response_record, prediction_record,
                  plan_switch_record, air_record, trace_record>;
 
 /// Gets the records of a run; implemented by whoever keeps them.

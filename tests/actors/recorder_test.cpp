@@ -19,7 +19,7 @@ struct letters final : record_sink {
   std::vector<station_id> tracks;
 
   void on_record(const record& x) override {
-    all += "edyoptscrnmvgqfwa"[x.index()];
+    all += "edjyoptscrnmvgqfwa"[x.index()];
     if (const auto* track = std::get_if<track_record>(&x))
       tracks.push_back(track->ego.own.station);
   }
@@ -32,6 +32,7 @@ TEST_CASE_FIXTURE(virtual_world, "every kind of record reaches the sink") {
   auto recorder = own(spawn_recorder(system(), sink));
   tell(recorder, record{event_record{}});
   tell(recorder, record{decision_record{}});
+  tell(recorder, record{verdict_record{}});
   tell(recorder, record{cycle_record{}});
   tell(recorder, record{work_record{}});
   tell(recorder, record{episode_record{}});
@@ -47,7 +48,7 @@ TEST_CASE_FIXTURE(virtual_world, "every kind of record reaches the sink") {
   tell(recorder, record{prediction_record{}});
   tell(recorder, record{plan_switch_record{}});
   tell(recorder, record{air_record{}});
-  CHECK(sink->all == "edyoptscrnmvgqfwa");
+  CHECK(sink->all == "edjyoptscrnmvgqfwa");
 }
 
 TEST_CASE_FIXTURE(virtual_world, "records keep their order and content") {

@@ -205,3 +205,20 @@ TEST_CASE(
   CHECK_FALSE(std::filesystem::exists(file));
   CHECK_FALSE(std::filesystem::exists(file.string() + ".part"));
 }
+
+TEST_CASE("planned paths that were recorded are lines of the scene") {
+  const played_folder run;
+  const mcap_content before{converted(run, "without.mcap")};
+  run.write("plans.csv", "t_s,station,ahead_s,x_m,y_m,speed_mps\n"
+                         "0.2,101,0,0,0,8\n0.2,101,0.5,4,0,8\n"
+                         "0.2,102,0,50,0,8\n"
+                         "0.4,101,0,1,0,8\n0.4,101,0.5,5,0,8\n");
+  const auto file = converted(run, "with.mcap");
+  const mcap_content after{file};
+  CHECK(after.messages.at("/scene") == before.messages.at("/scene") + 3);
+  CHECK(test::contains(file, "\"plan of 101\""));
+  run.write("plans.csv",
+            "t_s,station,ahead_s,x_m,y_m,speed_mps\n0.2,101,0,a,0,8\n");
+  CHECK_THROWS_AS(convert::convert(run.path(), run.path() / "run.mcap"),
+                  input_error);
+}

@@ -6,7 +6,9 @@
 
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <filesystem>
+#include <memory>
 #include <optional>
 
 namespace sofof::made_up {
@@ -54,6 +56,40 @@ TEST_CASE(
   results later{dir.path(), run()};
   later.finish(at(100s), 2, false);
   CHECK_FALSE(fs::exists(dir / "claims.csv"));
+}
+
+TEST_CASE("plans are points of plans.csv, a plan of each fifth of a second, if "
+          "they are wanted") {
+  const scratch dir;
+  auto with_plans = run();
+  with_plans.plans = true;
+  const auto plan = std::make_shared<world::trajectory>();
+  plan->start = at(5s);
+  for (int i = 0; i <= 10; ++i)
+    plan->points.push_back(
+        {.t_s = 0.1 * i, .at = {8 * 0.1 * i, 1}, .speed_mps = 8});
+  {
+    results r{dir.path(), with_plans};
+    track_record x;
+    x.ego.own.station = 101;
+    r.on_record(x); // without a plan
+    x.plan = plan;
+    for (const auto ms : {0, 100, 250, 350}) {
+      x.at = at(5s + std::chrono::milliseconds{ms});
+      r.on_record(x);
+    }
+    r.finish(at(100s), 2, false);
+  }
+  CHECK(content_of(dir / "plans.csv")
+        == "t_s,station,ahead_s,x_m,y_m,speed_mps\n"
+           "5.000000000,101,0.000000000,0.000,1.000,8.000\n"
+           "5.000000000,101,0.500000000,4.000,1.000,8.000\n"
+           "5.000000000,101,1.000000000,8.000,1.000,8.000\n"
+           "5.250000000,101,0.000000000,2.000,1.000,8.000\n"
+           "5.250000000,101,0.500000000,6.000,1.000,8.000\n");
+  results later{dir.path(), run()};
+  later.finish(at(100s), 2, false);
+  CHECK_FALSE(fs::exists(dir / "plans.csv"));
 }
 
 } // namespace sofof::made_up

@@ -11,6 +11,7 @@ namespace sofof::test {
 struct memory_sink final : messages::record_sink {
   std::vector<messages::event_record> events;
   std::vector<messages::decision_record> decisions;
+  std::vector<messages::verdict_record> verdicts;
   std::vector<messages::cycle_record> cycles;
   std::vector<messages::work_record> work;
   std::vector<messages::episode_record> episodes;
@@ -34,6 +35,9 @@ struct memory_sink final : messages::record_sink {
             [this](const messages::event_record& r) { events.push_back(r); },
             [this](const messages::decision_record& r) {
               decisions.push_back(r);
+            },
+            [this](const messages::verdict_record& r) {
+              verdicts.push_back(r);
             },
             [this](const messages::cycle_record& r) { cycles.push_back(r); },
             [this](const messages::work_record& r) { work.push_back(r); },
