@@ -1,6 +1,8 @@
 // sofof drive: runs vehicles, which providers of other processes plan for.
+#include "apps/address_argument.hpp"
 #include "apps/command.hpp"
 #include "apps/host_arguments.hpp"
+#include "apps/log_argument.hpp"
 #include "apps/run_arguments.hpp"
 #include "apps/signals.hpp"
 #include "base/input_error.hpp"
@@ -9,8 +11,8 @@
 
 #include <fmt/format.h>
 
-#include <iostream>
 #include <memory>
+#include <ostream>
 
 namespace sofof::apps {
 
@@ -41,6 +43,7 @@ void add_drive(CLI::App& app, int& exit_code) {
   struct arguments {
     run_arguments run;
     host_arguments host;
+    log_argument log;
     scenario::drive_options what;
     std::vector<std::string> providers;
     std::string stations;
@@ -61,6 +64,7 @@ void add_drive(CLI::App& app, int& exit_code) {
                    "Which vehicles, e.g. 101-106 (default all)")
       ->type_name("LIST");
   args->host.add_to(*command);
+  args->log.add_to(*command);
   command->footer(
       "Example:\n  sofof drive config/ulm_lehr.toml --provider 10.0.0.5:4711 "
       "--station 101-103 --keys keys/station-101-103");
@@ -71,8 +75,11 @@ void add_drive(CLI::App& app, int& exit_code) {
     args->what.stations = to_stations(args->stations);
     args->host.give(args->what);
     catch_signals();
-    exit_code = static_cast<int>(scenario::drive(
-        s, args->what, args->run.given(), interrupted, std::cout));
+    exit_code = static_cast<int>(args->log.with_console(
+        args->run.given(), "drive",
+        [&](const auto& how, std::ostream& console) {
+          return scenario::drive(s, args->what, how, interrupted, console);
+        }));
   });
 }
 

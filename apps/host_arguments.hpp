@@ -14,15 +14,6 @@
 
 namespace sofof::apps {
 
-/// @throws input_error.
-inline network::network_address address_of(std::string_view text) {
-  auto address = network::parse_address(text);
-  if (!address)
-    throw input_error(fmt::format(
-        "'{}' is no HOST:PORT, like 10.0.0.5:4711 or [::1]:4711", text));
-  return *address;
-}
-
 struct host_arguments {
   bool own_map = false;
   std::string keys;

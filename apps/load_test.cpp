@@ -1,6 +1,7 @@
 // sofof load-test: finds how many vehicles a provider carries.
 #include "experiments/load_test/load_test.hpp"
 
+#include "apps/address_argument.hpp"
 #include "apps/command.hpp"
 #include "apps/host_arguments.hpp"
 #include "apps/scenario_arguments.hpp"

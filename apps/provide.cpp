@@ -1,12 +1,14 @@
 // sofof provide: runs a provider for vehicles of other processes.
+#include "apps/address_argument.hpp"
 #include "apps/command.hpp"
 #include "apps/host_arguments.hpp"
+#include "apps/log_argument.hpp"
 #include "apps/run_arguments.hpp"
 #include "apps/signals.hpp"
 #include "scenario/hosts.hpp"
 
-#include <iostream>
 #include <memory>
+#include <ostream>
 #include <sys/resource.h>
 
 namespace sofof::apps {
@@ -28,6 +30,7 @@ void add_provide(CLI::App& app, int& exit_code) {
   struct arguments {
     run_arguments run;
     host_arguments host;
+    log_argument log;
     scenario::provide_options what;
     std::string listen = "127.0.0.1:4711";
   };
@@ -44,6 +47,7 @@ void add_provide(CLI::App& app, int& exit_code) {
                    "Which provider of the scenario, if it has several")
       ->type_name("NAME");
   args->host.add_to(*command);
+  args->log.add_to(*command);
   command->footer(
       "It runs until it is stopped, or for --duration.\nExample:\n  sofof "
       "provide config/ulm_lehr.toml --listen 0.0.0.0:4711 --keys "
@@ -56,8 +60,10 @@ void add_provide(CLI::App& app, int& exit_code) {
     args->host.give(args->what);
     catch_signals();
     allow_many_files();
-    exit_code = static_cast<int>(
-        scenario::provide(s, args->what, options, interrupted, std::cout));
+    exit_code = static_cast<int>(args->log.with_console(
+        options, "provide", [&](const auto& how, std::ostream& console) {
+          return scenario::provide(s, args->what, how, interrupted, console);
+        }));
   });
 }
 

@@ -7,6 +7,7 @@
 #include "base/fingerprint.hpp"
 #include "base/input_error.hpp"
 #include "base/text/printable.hpp"
+#include "network/keys/certificate.hpp"
 #include "network/keys/key_ring.hpp"
 #include "network/keys/nonce.hpp"
 #include "network/tls/tls_connector.hpp"
@@ -79,6 +80,21 @@ news_of(std::shared_ptr<news_board> board, const host_options& what,
     if (keys && changed && changed->exchange(false))
       board->log(keys->read_again());
     return board->take();
+  };
+}
+
+/// @param keys  May be null: then there is nothing to tell.
+std::function<void(recording::exposition&)>
+figures_of(std::shared_ptr<network::key_ring> keys) {
+  if (!keys)
+    return {};
+  return [keys = std::move(keys)](recording::exposition& to) {
+    const auto own =
+        network::certificate_from_pem(keys->now().certificate_pem());
+    to.family("sofof_certificate_expiry_timestamp_seconds",
+              recording::exposition::kind::gauge,
+              "Last second of the own certificate, since 1970.", "seconds");
+    to.sample({}, static_cast<double>(network::last_second_of(*own)));
   };
 }
 
@@ -308,6 +324,8 @@ run_outcome provide(const scenario_definition& s, const provide_options& what,
   options.realtime = true;
   options.when_unwritable = recording::write_failure::ends_the_files;
   options.network = "real";
+  options.role = "provide";
+  options.more_figures = figures_of(keys);
   options.whose = name;
   options.news = news_of(board, what, keys);
   process_share here;
@@ -363,6 +381,7 @@ run_outcome drive(const scenario_definition& s, const drive_options& what,
   options.realtime = true;
   options.when_unwritable = recording::write_failure::ends_the_files;
   options.network = "real";
+  options.role = "drive";
   options.whose = "cars";
   actors::filter_setup filter;
   filter.stations = stations.size();
@@ -405,6 +424,7 @@ run_outcome drive(const scenario_definition& s, const drive_options& what,
          }});
   }
   options.news = news_of(board, what, keys);
+  options.more_figures = figures_of(keys);
   const auto outcome = run_part(s, options, here, *time, interrupted, console);
   for (const auto& connector : connectors)
     connector->hang_up(); // attempts end now

@@ -11,8 +11,10 @@
 #include "recording/pcap_file.hpp"
 #include "recording/results_folder.hpp"
 #include "scenario/build.hpp"
+#include "scenario/datagram_air.hpp"
 #include "scenario/decision_timer.hpp"
 #include "scenario/energy_terms.hpp"
+#include "scenario/operations.hpp"
 #include "scenario/placement.hpp"
 #include "scenario/runtime.hpp"
 #include "scenario/stall_watch.hpp"
@@ -84,6 +86,7 @@ recording::run_info describe(const scenario_definition& s,
   info.cycles = s.record.cycles;
   info.tracks = s.record.tracks;
   info.margins = s.record.margins;
+  info.plans = s.record.plans;
   info.trace = s.record.trace;
   return info;
 }
@@ -125,6 +128,8 @@ struct stage {
   recording::progress shown{console, options.show};
   stopwatch watch{};
   std::optional<stall_watch> stalls{}; ///< On the wall clock.
+  std::optional<operations> watched{}; ///< Likewise, if asked for,
+  std::optional<datagram_air> udp{};   ///< as this.
 };
 
 /// Keeps which messages were disturbed before some time: the ledgers forget
@@ -287,20 +292,36 @@ played play(const scenario_definition& s, const process_share& here,
   if (on.options.time_decisions)
     deciding = add_timers(timed.policies);
   const auto start = time.now();
+  std::shared_ptr<messages::record_sink> sink = keeper;
+  if (on.watched)
+    sink = on.watched->counting(sink);
+  if (on.udp)
+    sink = on.udp->sending(sink);
   const auto actors = build(
-      time.system(), timed, keeper, time.clock(), !on.options.realtime,
+      time.system(), timed, sink, time.clock(), !on.options.realtime,
       [keeper](const auto& why) { keeper->fail(why); }, here);
   played run;
   try {
     if (on_start)
       on_start(actors);
     has_begun = true;
+    if (on.udp)
+      on.udp->hear_for(actors, s, time);
+    if (on.watched) {
+      on.watched->ready(actors.loads);
+      on.console << "figures at " << on.watched->address() << "/metrics"
+                 << std::endl;
+    }
     std::optional<recording::cpu_meter> meter;
     if (auto* ledger = actors::ledger_of(time.system())) {
       time.run_until(std::min(start + settling, end));
       meter.emplace(*ledger, time.now());
     }
     run.ended = advance(time, end, actors.loads, on);
+    if (on.watched)
+      on.watched->ending();
+    if (on.udp)
+      on.udp->be_deaf();
     if (meter)
       run.computed = meter->read(time.now());
   } catch (const start_refused&) { // by a peer, perhaps a little later
@@ -375,6 +396,12 @@ run_outcome run(const scenario_definition& s, const run_options& options,
   if (options.cpu && !options.realtime)
     throw input_error("--cpu measures computing time, which passes on the wall "
                       "clock only; add --realtime");
+  if (options.metrics && !options.realtime)
+    throw input_error("--metrics is for whoever watches a run on the wall "
+                      "clock; add --realtime");
+  if (options.udp && !options.realtime)
+    throw input_error("--udp is for programs that send and hear on the wall "
+                      "clock; add --realtime");
   if (options.realtime && options.threads > 1)
     throw input_error("--threads is of virtual time: on the wall clock all "
                       "cores work; leave out one of --threads and --realtime");
@@ -399,6 +426,14 @@ run_outcome run_part(const scenario_definition& s, const run_options& options,
   stage on{options, interrupted, console, *kept.keeper};
   if (options.realtime)
     on.stalls.emplace();
+  if (options.udp) {
+    on.udp.emplace(*options.udp);
+    console << "datagrams are heard at " << on.udp->address() << std::endl;
+  }
+  if (options.metrics)
+    on.watched.emplace(
+        *options.metrics, info, options.role, [&time] { return time.now(); },
+        options.more_figures);
   played run;
   auto has_begun = false;
   try {

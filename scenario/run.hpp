@@ -2,6 +2,8 @@
 #pragma once
 
 #include "base/input_error.hpp"
+#include "network/network_address.hpp"
+#include "recording/exposition.hpp"
 #include "recording/progress.hpp"
 #include "recording/write_failure.hpp"
 #include "scenario/scenario.hpp"
@@ -20,6 +22,12 @@ namespace sofof::scenario {
 class runtime;        // scenario/runtime.hpp
 struct process_share; // scenario/build.hpp, as
 struct world_actors;
+
+/// Datagrams of ITS messages.
+struct udp_options {
+  network::network_address to;                  ///< Gets what is sent here.
+  std::optional<network::network_address> from; ///< Where others send to.
+};
 
 struct run_options {
   std::optional<std::filesystem::path> out; ///< Results folder, if asked for.
@@ -42,6 +50,14 @@ struct run_options {
   bool endless = false; ///< Until it is interrupted, which is a good end.
   std::string version;
   std::string network; ///< What messages cross, if not the modelled channel.
+  /// Where to serve figures while it goes on; on the wall clock only.
+  std::optional<network::network_address> metrics;
+  std::string role = "run"; ///< What this process is in them.
+  /// Where ITS messages go to and come from as datagrams, if asked for; on the
+  /// wall clock only.
+  std::optional<udp_options> udp;
+  /// Adds to them what no record tells, on any thread.
+  std::function<void(recording::exposition&)> more_figures;
   /// Called ten times a second of a run on the wall clock.
   /// @returns lines to show. What it throws ends the run.
   std::function<std::vector<std::string>()> news;

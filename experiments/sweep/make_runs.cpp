@@ -2,6 +2,7 @@
 #include "experiments/sweep/make_runs.hpp"
 
 #include "base/stopwatch.hpp"
+#include "experiments/sweep/point_table.hpp"
 #include "scenario/load.hpp"
 
 #include <fmt/format.h>
@@ -34,6 +35,10 @@ public:
       return store_.summary_of(run.name).has_value();
     });
     found_ = all_ - runs.size();
+    if (how_.watched) {
+      how_.watched->runs += all_;
+      how_.watched->found += found_;
+    }
     std::ranges::stable_sort(runs, std::ranges::greater{}, &wanted_run::cost);
     for (auto& run : runs) {
       cost_ += run.cost;
@@ -75,6 +80,8 @@ private:
       waiting_.pop_front();
       lock.unlock();
       const auto why = failure_of(next);
+      if (how_.watched)
+        count(next);
       lock.lock();
       if (why)
         failures_.push_back(fmt::format("{} failed: {}", next.point, *why));
@@ -98,6 +105,18 @@ private:
     } catch (const std::exception& problem) {
       return problem.what();
     }
+  }
+
+  void count(const wanted_run& run) const {
+    const auto summary = store_.summary_of(run.name);
+    if (!summary && interrupted_)
+      return;
+    run_counts one;
+    one.add({run.name, summary.value_or("")});
+    auto& to = *how_.watched;
+    to.good += one.good;
+    to.unsafe += one.unsafe;
+    to.failed += one.failed;
   }
 
   void tell_failures(recording::progress& shown) {

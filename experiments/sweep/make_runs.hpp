@@ -7,18 +7,27 @@
 #include "recording/progress.hpp"
 
 #include <atomic>
+#include <cstddef>
 #include <iosfwd>
 #include <string>
 #include <vector>
 
 namespace sofof::experiments {
 
+/// How far they are, for whoever watches from another thread.
+struct making_progress {
+  std::atomic<std::size_t> runs = 0;  ///< All that are wanted.
+  std::atomic<std::size_t> found = 0; ///< That were there before.
+  std::atomic<std::size_t> good = 0, unsafe = 0, failed = 0; ///< Made by now.
+};
+
 /// How runs are made.
 struct making {
   run_maker make;
   unsigned jobs = 1; ///< Runs at the same time, >= 1.
   recording::progress::output show = recording::progress::output::quiet;
-  std::string title; ///< In front of the progress.
+  std::string title;                  ///< In front of the progress.
+  making_progress* watched = nullptr; ///< Kept up to date, unless null.
 };
 
 /// Makes those that the store does not have, the longest first, so that the

@@ -16,9 +16,9 @@ public:
   bool is_cut_off() const { return is_cut_off_; }
   std::span<const std::byte> rest() const { return rest_; }
 
-  void skip(std::size_t count) { take(count); }
+  void skip(std::size_t count) { octets(count); }
 
-  std::span<const std::byte> take(std::size_t count) {
+  std::span<const std::byte> octets(std::size_t count) {
     if (count > rest_.size()) {
       is_cut_off_ = true;
       count = rest_.size();
@@ -29,9 +29,9 @@ public:
   }
 
   /// Big-endian, as the networks have it. @returns 0 where octets are missing.
-  std::size_t number(std::size_t octets) {
+  std::size_t number(std::size_t count) {
     std::size_t x = 0;
-    for (const auto octet : take(octets))
+    for (const auto octet : octets(count))
       x = x << 8 | std::to_integer<std::size_t>(octet);
     return is_cut_off_ ? 0 : x;
   }
@@ -155,7 +155,7 @@ std::string_view open_envelope(octet_reader& in, bool& is_signed) {
     return "it is encrypted";
   if (content != unsecured)
     return "its security header is of an unknown kind";
-  const auto payload = in.take(oer_length(in));
+  const auto payload = in.octets(oer_length(in));
   if (in.is_cut_off())
     return cut_off;
   in = octet_reader{payload};
@@ -203,7 +203,7 @@ captured_packet read_common(octet_reader in, bool is_signed) {
   if (!in.is_cut_off() && ((next != btp_a && next != btp_b) || header == 0))
     return other_packet{};
   in.skip(header);
-  octet_reader payload{in.take(length)};
+  octet_reader payload{in.octets(length)};
   btp_packet found{.port = static_cast<std::uint16_t>(payload.number(2)),
                    .is_signed = is_signed};
   payload.skip(2); // the source's port, or details of the destination

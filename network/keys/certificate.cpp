@@ -185,6 +185,13 @@ bool has_expired(const X509& certificate) {
   return X509_cmp_current_time(X509_get0_notAfter(&certificate)) <= 0;
 }
 
+std::int64_t last_second_of(const X509& certificate) {
+  std::tm when{};
+  require_openssl(ASN1_TIME_to_tm(X509_get0_notAfter(&certificate), &when) == 1,
+                  "read the end of a certificate");
+  return timegm(&when);
+}
+
 std::string end_of(const X509& certificate) {
   return print_time(X509_get0_notAfter(&certificate));
 }

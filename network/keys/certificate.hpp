@@ -5,6 +5,7 @@
 #include "network/keys/openssl.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -39,6 +40,9 @@ std::string serial_of(const X509& certificate);
 
 /// @returns whether its last second is over.
 bool has_expired(const X509& certificate);
+
+/// @returns its last second, since 1970.
+std::int64_t last_second_of(const X509& certificate);
 
 /// @returns e.g. "2026-11-22 10:00 UTC".
 std::string end_of(const X509& certificate);
