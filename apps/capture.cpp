@@ -66,13 +66,23 @@ std::optional<link_layer> link_layer_of(int type) {
   }
 }
 
+/// @returns ns; nullopt for what no capture of this world can say.
+std::optional<std::int64_t> since_1970(const timeval& at) {
+  constexpr std::int64_t ns_per_s = 1'000'000'000;
+  std::int64_t s_in_ns = 0, ns = 0;
+  if (__builtin_mul_overflow(at.tv_sec, ns_per_s, &s_in_ns)
+      || __builtin_add_overflow(s_in_ns, at.tv_usec, &ns))
+    return std::nullopt;
+  return ns;
+}
+
 /// @param error  What is wrong with it; empty: nothing.
 std::string in_json(std::uint64_t number, const pcap_pkthdr& at,
                     const messages::captured_packet& found,
                     std::string& error) {
-  constexpr std::int64_t ns_per_s = 1'000'000'000;
-  auto text = fmt::format(R"({{"packet": {}, "unix_ns": {})", number,
-                          at.ts.tv_sec * ns_per_s + at.ts.tv_usec);
+  auto text = fmt::format(R"({{"packet": {})", number);
+  if (const auto ns = since_1970(at.ts))
+    text += fmt::format(R"(, "unix_ns": {})", *ns);
   std::string message;
   if (const auto* x = std::get_if<messages::btp_packet>(&found)) {
     text += fmt::format(R"(, "port": {})", x->port);

@@ -34,16 +34,19 @@ struct run_arguments {
         .add_option("--metrics", metrics,
                     "Serve figures for Prometheus, and /healthz, by HTTP; on "
                     "the wall clock only")
-        ->type_name("ADDR:PORT");
+        ->type_name("ADDR:PORT")
+        ->check(trouble_with_address);
     auto* to = command
                    .add_option("--udp", udp,
                                "Send CAMs, CPMs and MCMs there as datagrams, "
                                "BTP header and message; on the wall clock only")
-                   ->type_name("ADDR:PORT");
+                   ->type_name("ADDR:PORT")
+                   ->check(trouble_with_address);
     command
         .add_option("--udp-from", udp_from,
                     "Hear such datagrams of others here")
         ->type_name("ADDR:PORT")
+        ->check(trouble_with_address)
         ->needs(to);
     command.add_flag("--force", options.force,
                      "Write into a folder that is not empty");

@@ -117,7 +117,8 @@ void add_sweep(CLI::App& app, int& exit_code) {
   command
       ->add_option("--metrics", args->metrics,
                    "Serve how far it is, for Prometheus, and /healthz, by HTTP")
-      ->type_name("ADDR:PORT");
+      ->type_name("ADDR:PORT")
+      ->check(trouble_with_address);
   command->footer("Example:\n  sofof sweep config/paper/latency_plot.toml -j 2 "
                   "--out results/paper");
   command->callback([args, &exit_code] {

@@ -156,6 +156,11 @@ public:
   /// @returns whether a requester speaks for a station that is known, or waits
   /// for an answer.
   bool serves(peer_id requester) const;
+  /// @returns whether a requester speaks for this station.
+  bool serves(station_id station) const {
+    const auto known = stations_.find(station);
+    return known != stations_.end() && known->second.requester.has_value();
+  }
 
 private:
   using step = messages::trace_step;

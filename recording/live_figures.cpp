@@ -69,28 +69,36 @@ void live_histogram::write(exposition& to, const exposition::labels& of) const {
 }
 
 void live_counters::add(std::string_view name) {
+  ++at(name.empty() ? "other" : name).count;
+}
+
+void live_counters::expect(std::string_view name) {
+  at(name);
+}
+
+live_counters::named& live_counters::at(std::string_view name) {
   const auto size = size_.load(std::memory_order_relaxed);
-  if (name.empty() || size == most)
-    name = "other";
   for (std::size_t i = 0; i < size; ++i)
-    if (all_[i].name == name) {
-      ++all_[i].count;
-      return;
-    }
-  // The last place is that of all others.
-  auto& added = all_[std::min(size, most - 1)];
-  if (size < most) {
-    added.name = size + 1 == most ? "other" : name;
-    size_.store(size + 1, std::memory_order_release);
-  }
-  ++added.count;
+    if (all_[i].name == name)
+      return all_[i];
+  if (size == most)
+    return all_.back(); // that of all others
+  all_[size].name = size + 1 == most ? "other" : name;
+  size_.store(size + 1, std::memory_order_release);
+  return all_[size];
 }
 
 live_figures::live_figures(const run_info& run, std::string role, more also)
-    : version_{run.version}, role_{std::move(role)}, also_{std::move(also)},
-      vehicles_{static_cast<std::int64_t>(run.vehicles)} {
-  for (const auto& name : run.services)
-    services_.emplace_back(name);
+    : version_{run.version}, role_{std::move(role)}, is_provider_{role_
+                                                                  == "provide"},
+      also_{std::move(also)}, vehicles_{
+                                  static_cast<std::int64_t>(run.vehicles)} {
+  for (const auto& name : run.services) {
+    auto& service = services_.emplace_back(name);
+    for (std::size_t k = 0; k < end_reason_count; ++k)
+      service.ended.expect(
+          messages::name_of(static_cast<messages::end_reason>(k)));
+  }
 }
 
 void live_figures::on_record(const messages::record& x) {
@@ -173,10 +181,12 @@ void live_figures::add(const messages::verdict_record& x) {
   auto* service = find(x.session.service);
   if (!service)
     return;
-  ++(x.accepted ? service->accepted : service->rejected);
-  service->running += x.accepted;
   if (!x.accepted)
     service->verdicts.add(words_of(x.why));
+  if (!is_provider_) // which its vehicles tell of, too
+    return;
+  ++(x.accepted ? service->accepted : service->rejected);
+  service->running += x.accepted;
 }
 
 void live_figures::add(const messages::cycle_record& x) {
@@ -185,14 +195,15 @@ void live_figures::add(const messages::cycle_record& x) {
     return;
   const auto who = user{service->name, x.session.station};
   const auto was_late = late_.erase(who) > 0;
-  if (x.used)
+  if (x.used) {
     ++service->used;
-  else if (was_late)
+    in_doubt_.erase(who); // another source's clock was
+  } else if (was_late)
     ++service->late;
   else if (in_doubt_.contains(who))
     ++service->unknown;
   else
-    ++service->refused_results;
+    ++service->other;
   service->latency.add(x.received - x.created);
   service->input_age.add(x.received - x.timing.input_at);
   service->wait.add(x.timing.queue);
@@ -202,12 +213,13 @@ void live_figures::add(const messages::cycle_record& x) {
 
 void live_figures::add(const messages::episode_record& x) {
   auto* service = find(x.session.service);
-  if (!service)
+  const auto is_own = (x.of == messages::side::provider) == is_provider_;
+  if (!service || !is_own)
     return;
   service->ended.add(messages::name_of(x.reason));
   service->fallbacks += x.fallback;
-  if (x.of == messages::side::provider)
-    --service->running;
+  service->running -= is_provider_;
+  in_doubt_.erase({service->name, x.session.station});
 }
 
 void live_figures::add(const messages::safety_record& x) {
@@ -258,7 +270,7 @@ void live_figures::write_services(exposition& to) const {
           "reason", &service::verdicts);
   by_name("sofof_episodes_ended", "Offloadings that ended, by reason.",
           "reason", &service::ended);
-  if (role_ == "provide")
+  if (is_provider_)
     return;
   by_name("sofof_violations",
           "Times that the QoS watchdog ended one, by limit.", "reason",
@@ -276,7 +288,7 @@ void live_figures::write_services(exposition& to) const {
          to.sample({label, {"outcome", "used"}}, x.used.load());
          to.sample({label, {"outcome", "late"}}, x.late.load());
          to.sample({label, {"outcome", "unknown"}}, x.unknown.load());
-         to.sample({label, {"outcome", "refused"}}, x.refused_results.load());
+         to.sample({label, {"outcome", "other"}}, x.other.load());
        });
   const auto histogram = [&](const char* name, const char* help,
                              const auto& of) {
@@ -312,7 +324,7 @@ void live_figures::write_driving(exposition& to) const {
     to.family(name, kind::counter, help);
     to.sample({}, x.load());
   };
-  if (role_ == "provide") {
+  if (is_provider_) {
     gauge("sofof_peers", "Connections from vehicles.", peers_);
     counter("sofof_peers_refused", "Times that a peer was not let in.",
             refused_peers_);

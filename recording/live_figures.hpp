@@ -3,6 +3,7 @@
 
 #include "messages/protocol/record.hpp"
 #include "recording/exposition.hpp"
+#include "recording/metrics.hpp"
 #include "recording/run_info.hpp"
 
 #include <array>
@@ -10,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <set>
 #include <span>
 #include <string>
@@ -38,6 +40,8 @@ private:
 class live_counters {
 public:
   void add(std::string_view name);
+  /// Tells of it, too, before there is any.
+  void expect(std::string_view name);
 
   /// Calls `tell(name, count)` for each.
   template <class Tell>
@@ -53,12 +57,14 @@ private:
     std::string name; ///< Written before `size_` covers it.
     std::atomic<std::uint64_t> count = 0;
   };
+  named& at(std::string_view name);
+
   std::array<named, most> all_{};
   std::atomic<std::size_t> size_ = 0;
 };
 
 /// Counts what the records of a process tell, without a lock. Names:
-/// docs/operations.md.
+/// docs/operations/README.md.
 class live_figures final : public messages::record_sink {
 public:
   /// What else is told, each time that somebody asks.
@@ -80,7 +86,7 @@ private:
     explicit service_figures(std::string service) : name{std::move(service)} {}
     std::string name;
     std::atomic<std::int64_t> running = 0;
-    count used = 0, late = 0, unknown = 0, refused_results = 0;
+    count used = 0, late = 0, unknown = 0, other = 0; ///< Results.
     count fallbacks = 0;
     live_counters verdicts, ended, violations, implausible;
     count accepted = 0, rejected = 0;
@@ -105,6 +111,7 @@ private:
   void write_air(exposition& to) const;
 
   const std::string version_, role_;
+  const bool is_provider_; ///< And no vehicles.
   const more also_;
   std::deque<service_figures> services_; // as many as at first
   std::atomic<std::int64_t> vehicles_ = 0, peers_ = 0, providers_ = 0;

@@ -325,7 +325,14 @@ run_outcome provide(const scenario_definition& s, const provide_options& what,
   options.when_unwritable = recording::write_failure::ends_the_files;
   options.network = "real";
   options.role = "provide";
-  options.more_figures = figures_of(keys);
+  options.more_figures = [of_keys = figures_of(keys),
+                          &listener](recording::exposition& to) {
+    to.family("sofof_handshakes_refused", recording::exposition::kind::counter,
+              "TLS connections that were refused.");
+    to.sample({}, listener.refused_handshakes());
+    if (of_keys)
+      of_keys(to);
+  };
   options.whose = name;
   options.news = news_of(board, what, keys);
   process_share here;

@@ -51,6 +51,8 @@ operations::operations(const network::network_address& at,
       figures_{std::make_shared<recording::live_figures>(
           run, std::move(role),
           [this, more = std::move(more)](exposition& to) {
+            if (health_ == health::starting)
+              return;
             write_loads(to);
             if (more)
               more(to);
@@ -100,7 +102,7 @@ operations::answer(const network::http::request& to) const {
 }
 
 void operations::write_loads(exposition& to) const {
-  if (health_ == health::starting || loads_.empty())
+  if (loads_.empty())
     return;
   const auto now = now_() - start_;
   std::vector<channel::load_figures> all;

@@ -18,7 +18,8 @@ namespace sofof::scenario {
 class operations {
 public:
   /// @param now   Tells the time of the run, on any thread.
-  /// @param more  Adds figures that no record tells; may be empty.
+  /// @param more  Adds figures that no record tells, once it is ready; may be
+  ///              empty.
   /// @throws network_error when it cannot listen there.
   operations(const network::network_address& at, const recording::run_info& run,
              std::string role, std::function<time_point()> now,

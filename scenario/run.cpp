@@ -128,8 +128,8 @@ struct stage {
   recording::progress shown{console, options.show};
   stopwatch watch{};
   std::optional<stall_watch> stalls{}; ///< On the wall clock.
-  std::optional<operations> watched{}; ///< Likewise, if asked for,
-  std::optional<datagram_air> udp{};   ///< as this.
+  operations* watched = nullptr;       ///< Unless it is asked for,
+  datagram_air* udp = nullptr;         ///< as this.
 };
 
 /// Keeps which messages were disturbed before some time: the ledgers forget
@@ -305,7 +305,7 @@ played play(const scenario_definition& s, const process_share& here,
     if (on_start)
       on_start(actors);
     has_begun = true;
-    if (on.udp)
+    if (on.udp && on.options.udp->from)
       on.udp->hear_for(actors, s, time);
     if (on.watched) {
       on.watched->ready(actors.loads);
@@ -421,19 +421,24 @@ run_outcome run_part(const scenario_definition& s, const run_options& options,
       options.whose.empty() ? s.name : s.name + "-" + options.whose;
   const auto was_there = options.out && std::filesystem::exists(*options.out);
   info.start = time.now();
+  // A port that is taken is refused before there are results.
+  std::optional<operations> watched;
+  if (options.metrics)
+    watched.emplace(
+        *options.metrics, info, options.role, [&time] { return time.now(); },
+        options.more_figures);
+  std::optional<datagram_air> udp;
+  if (options.udp)
+    udp.emplace(*options.udp);
+  if (options.udp && options.udp->from)
+    console << "datagrams are heard at " << udp->address() << std::endl;
   const auto kept = make_keeper(name, s.seed, info, options);
   const auto end = options.endless ? time_point::max() : info.start + s.length;
   stage on{options, interrupted, console, *kept.keeper};
+  on.watched = watched ? &*watched : nullptr;
+  on.udp = udp ? &*udp : nullptr;
   if (options.realtime)
     on.stalls.emplace();
-  if (options.udp) {
-    on.udp.emplace(*options.udp);
-    console << "datagrams are heard at " << on.udp->address() << std::endl;
-  }
-  if (options.metrics)
-    on.watched.emplace(
-        *options.metrics, info, options.role, [&time] { return time.now(); },
-        options.more_figures);
   played run;
   auto has_begun = false;
   try {

@@ -6,6 +6,7 @@
 #include "network/tls/tls_acceptor.hpp"
 #include "scenario/runtime.hpp"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -36,6 +37,12 @@ public:
 
   /// @returns who is behind the connections that come by TLS.
   const network::peer_register& peers() const { return *peers_; }
+
+  /// @returns how many handshakes were refused; once it is open, any thread may
+  /// ask.
+  std::uint64_t refused_handshakes() const {
+    return tls_ ? tls_->counts().refused : 0;
+  }
 
   /// @returns the address that others reach the acceptor at.
   /// @throws input_error, network_error.

@@ -25,10 +25,12 @@ public:
       : self_{self}, services_{services}, recorder_{std::move(recorder)} {}
 
   /// Calls `tell` with the number of a requester, which stays known only if it
-  /// is served then.
+  /// is served then; does nothing for none, of a station that wants no service.
   template <class Function>
   void with(const messages::requester_actor& requester,
             const offloading::provider& rules, Function tell) {
+    if (!requester)
+      return;
     const auto known = requesters_.find(requester.address());
     const auto peer = known ? *known : requesters_.add(requester);
     tell(peer);

@@ -38,17 +38,19 @@ struct provider_state {
 
   void on_broadcast(const messages::its_pdu& message,
                     const messages::requester_actor& requester) {
+    const auto station = message.station().value_or(0);
+    if (!requester && rules->serves(station))
+      return; // somebody else speaks in its name
+    // A station that is alone in its process stands for itself.
+    const auto sender = message.sender.value_or(sender_id{station.value()});
     const auto heard = decode(message, now(self));
     if (const auto* c = std::get_if<messages::cam>(&heard)) {
-      const auto sender = sender_of(message, c->station);
       tell([&](broadcast_listener& x) { x.on_cam(*c, sender); });
       links->with(requester, *rules,
                   [&](auto from) { rules->on_cam(*c, from, now(self)); });
     } else if (const auto* seen = std::get_if<messages::object_list>(&heard)) {
-      const auto sender = sender_of(message, seen->from);
       tell([&](broadcast_listener& x) { x.on_objects(*seen, sender); });
     } else if (const auto* word = std::get_if<messages::decoded_mcm>(&heard)) {
-      const auto sender = sender_of(message, word->from);
       tell([&](broadcast_listener& x) { x.on_word(*word, sender); });
     }
   }
@@ -58,12 +60,6 @@ struct provider_state {
     links->with(requester, *rules, [&](auto from) {
       rules->on_request(request, from, now(self));
     });
-  }
-
-  // A station that is alone in its process stands for itself.
-  static sender_id sender_of(const messages::its_pdu& message,
-                             station_id station) {
-    return message.sender.value_or(sender_id{station.value()});
   }
 
   template <class Function>

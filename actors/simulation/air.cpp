@@ -54,11 +54,16 @@ struct air_state {
 
   void on_word(station_id::rep from, point at, const messages::its_pdu& what) {
     const auto sent = now(self);
+    const auto is_foreign = !ears.contains(from);
     const auto number =
         static_cast<std::uint64_t>(sent.time_since_epoch().count());
     for (const auto& [who, ear] : ears) {
       if (who == from || distance_m(at, ear.at) > setup.range_m)
         continue;
+      if (is_foreign) { // it has come by a wire of its own
+        self->send(ear.listener, at, what);
+        continue;
+      }
       const auto arrives = way(from, who).arrival(
           sent, channel::message_class::other, number, octets_on_air(what));
       if (arrives)

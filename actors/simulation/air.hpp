@@ -19,7 +19,8 @@ struct air_setup {
 };
 
 /// Carries what one vehicle tells to all that are near it, to each with its own
-/// delay and loss, in order. Who has died is forgotten.
+/// delay and loss, in order. Who has died is forgotten. Words of stations that
+/// do not hear by it, of other programs, come at once.
 messages::air_actor spawn_air(caf::actor_system& sys, air_setup setup);
 
 } // namespace sofof::actors

@@ -1,12 +1,13 @@
-// One actor hears, and one is whom providers would serve.
+// An actor hears, and asks for nothing.
 #include "actors/simulation/foreign_air.hpp"
 
 #include "actors/runtime/time.hpp"
 
 #include <caf/event_based_actor.hpp>
 #include <caf/send.hpp>
-#include <caf/typed_event_based_actor.hpp>
 
+#include <chrono>
+#include <map>
 #include <utility>
 #include <variant>
 
@@ -17,28 +18,43 @@ namespace {
 /// No certificate and no station has this number.
 constexpr sender_id nobody_known = sender_id::rep{1} << 62;
 
-/// It wants no service.
-messages::requester_actor::behavior_type
-foreign_requester(messages::requester_actor::pointer) {
-  return {[](const messages::service_result&) {},
-          [](const messages::service_offer&) {},
-          [](const messages::service_response&,
-             const std::vector<messages::provider_manager_actor>&) {},
-          [](const messages::session_digest&) {},
-          [](const messages::service_end&) {}};
-}
+/// So many foreign stations are heard at once, each until it has been silent
+/// for so long; no street has more.
+constexpr std::size_t most_stations = 256;
+constexpr duration silence = std::chrono::seconds{10};
+
+/// Bounds what strangers can make others remember.
+class station_list {
+public:
+  /// @returns whether there is room for it, as there is for who was heard.
+  bool admits(station_id who, time_point now) {
+    if (!heard_.contains(who)) {
+      if (heard_.size() >= most_stations)
+        std::erase_if(
+            heard_, [now](const auto& x) { return now - x.second > silence; });
+      if (heard_.size() >= most_stations)
+        return false;
+    }
+    heard_[who] = now;
+    return true;
+  }
+
+private:
+  std::map<station_id, time_point> heard_;
+};
 
 caf::behavior foreign_ear(caf::event_based_actor* self,
                           foreign_air_setup setup) {
-  const auto nobody = self->spawn<caf::linked>(foreign_requester);
-  return {[=, setup = std::move(setup)](messages::its_pdu& message) {
+  return {[self, setup = std::move(setup),
+           known = station_list{}](messages::its_pdu& message) mutable {
     const auto station = message.station();
     if (!station || setup.own.contains(*station)
-        || is_provider_station(station->value()))
+        || is_provider_station(station->value())
+        || !known.admits(*station, now(self)))
       return;
     message.sender = nobody_known;
     for (const auto& provider : setup.providers)
-      self->send(provider, message, nobody);
+      self->send(provider, message, messages::requester_actor{});
     const auto word = setup.decode(message, now(self));
     if (const auto* x = std::get_if<messages::decoded_mcm>(&word);
         x && setup.air) // the only words that vehicles hear

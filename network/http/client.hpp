@@ -22,7 +22,8 @@ struct url {
 std::optional<url> parse_url(std::string_view text);
 
 /// Asks by GET.
-/// @param patience  How long all together may take.
+/// @param patience  How long all together may take, but for the resolver, which
+///                  may take longer for a name that it does not find.
 /// @returns the answer, of at most 1 MiB. @throws network_error.
 response get(const url& what, std::chrono::milliseconds patience);
 

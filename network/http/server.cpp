@@ -11,7 +11,9 @@
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <chrono>
+#include <exception>
 #include <optional>
+#include <string>
 #include <thread>
 #include <utility> // before Asio, which lacks it
 
@@ -47,7 +49,12 @@ response answer_of(const answerer& answer, const beast_request& from) {
   const auto verb = from.method();
   if (verb != beast::http::verb::get && verb != beast::http::verb::head)
     return {405, "text/plain; charset=utf-8", "only GET is answered here\n"};
-  return answer(as_ours(from));
+  try {
+    return answer(as_ours(from));
+  } catch (const std::exception& problem) { // no room, say
+    return {500, "text/plain; charset=utf-8",
+            std::string{problem.what()} + '\n'};
+  }
 }
 
 beast_response as_theirs(response&& from, const beast_request& to) {
@@ -140,9 +147,9 @@ public:
       acceptor_.bind(endpoint);
       acceptor_.listen();
     } catch (const boost::system::system_error& problem) {
-      throw network_error{fmt::format("cannot listen at {}: {}",
-                                      print_address(at),
-                                      problem.code().message())};
+      throw network_error{
+          fmt::format("cannot listen at {}: {}; choose another port or address",
+                      print_address(at), problem.code().message())};
     }
     accept();
     thread_ = std::thread{[this] {

@@ -38,8 +38,9 @@ socket_address resolved(const network_address& address) {
 descriptor socket_for(const network_address& to, const socket_address& there,
                       const std::optional<network_address>& from) {
   const auto refuse = [&](const network_address& where, std::string_view why) {
-    throw network_error{fmt::format("no datagrams can come at {}: {}",
-                                    print_address(where), why)};
+    throw network_error{fmt::format(
+        "no datagrams can come at {}: {}; choose another port or address",
+        print_address(where), why)};
   };
   descriptor own{::socket(there.storage.ss_family,
                           SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)};

@@ -15,7 +15,7 @@ namespace sofof::network {
 /// own, and no more than `most_per_second` of it.
 class datagrams {
 public:
-  static constexpr double most_per_second = 5000;
+  static constexpr double most_per_second = 2000;
 
   /// @param from  Where to hear; nullopt: what is answered alone.
   /// @param hear  Gets each datagram of at most `longest` octets; on the own

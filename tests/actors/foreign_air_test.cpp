@@ -64,12 +64,13 @@ TEST_CASE_FIXTURE(foreign_world, "nobody is heard in the name of a station of "
   CHECK(provider->entries().empty());
 }
 
-TEST_CASE_FIXTURE(foreign_world, "who is offered a service does not ask for "
-                                 "it") {
-  say(cam_of(900));
-  const auto requesters = provider->seconds<requester_actor>();
-  REQUIRE(requesters.size() == 1);
-  tell(requesters.front(), service_offer{});
-  run_for(std::chrono::seconds{3});
-  CHECK(provider->entries().size() == 1);
+TEST_CASE_FIXTURE(foreign_world, "so many stations are heard at once, and "
+                                 "others once some are silent") {
+  for (station_id::rep who = 1000; who < 2000; ++who)
+    say(cam_of(who));
+  CHECK(provider->entries().size() == 256);
+  run_for(std::chrono::seconds{11});
+  say(cam_of(1999));
+  CHECK(provider->entries().size() == 257);
+  CHECK_FALSE(provider->seconds<requester_actor>().front()); // it asks nothing
 }

@@ -10,8 +10,9 @@
 #include <sstream>
 #include <string>
 
-using namespace sofof;
-using namespace sofof::recording;
+namespace sofof::watched {
+
+using namespace recording;
 using namespace std::chrono_literals;
 using test::contains;
 
@@ -88,7 +89,7 @@ TEST_CASE("results are counted by their use, and into buckets of their times") {
   CHECK(results("used") == "2");
   CHECK(results("late") == "1");
   CHECK(results("unknown") == "1");
-  CHECK(results("refused") == "1");
+  CHECK(results("other") == "1");
   const auto within = [&x](const char* limit) {
     return x[with_service("sofof_result_latency_seconds_bucket",
                           std::string{",le=\""} + limit + '"')];
@@ -142,6 +143,38 @@ TEST_CASE("a provider counts what it has accepted, refused and ended") {
   CHECK(x.count("sofof_vehicles") == 0);
 }
 
+TEST_CASE("where both sides are in one process, an offloading counts once") {
+  live_figures all{one_service(), "run", {}};
+  auto there = event(messages::event_type::switched, "remote");
+  there.remote = true;
+  all.on_record(messages::verdict_record{{}, session, true, {}});
+  messages::decision_record decided;
+  decided.station = session.station;
+  decided.service = planning;
+  decided.accepted = true;
+  all.on_record(decided);
+  all.on_record(there);
+  const auto sessions = with_service("sofof_sessions");
+  CHECK(samples_of(all)[sessions] == "1");
+  CHECK(samples_of(
+            all)[with_service("sofof_requests_total", ",verdict=\"accepted\"")]
+        == "1");
+  all.on_record(event(messages::event_type::switched, "local"));
+  for (const auto of : {messages::side::provider, messages::side::requester}) {
+    messages::episode_record end;
+    end.session = session;
+    end.of = of;
+    all.on_record(end);
+  }
+  auto x = samples_of(all);
+  CHECK(x[sessions] == "0");
+  std::size_t ended = 0;
+  for (const auto& [name, value] : x)
+    if (name.starts_with("sofof_episodes_ended_total"))
+      ended += std::stoul(value);
+  CHECK(ended == 1);
+}
+
 TEST_CASE(
     "however many reasons there are, some are told and the rest together") {
   live_figures all{one_service(), "provide", {}};
@@ -157,6 +190,9 @@ TEST_CASE(
     }
   CHECK(names == 24);
   CHECK(sum == 101);
+  CHECK(samples_of(all)[with_service("sofof_requests_rejected_total",
+                                     ",reason=\"reason 3\"")]
+        == "2");
 }
 
 TEST_CASE("both formats name counters as they ask for, and end as they end") {
@@ -183,3 +219,5 @@ TEST_CASE("who asks for OpenMetrics gets it, and others the older format") {
   CHECK(format_for("application/openmetrics-text;version=1.0.0,text/plain")
         == exposition_format::openmetrics);
 }
+
+} // namespace sofof::watched
