@@ -131,6 +131,7 @@ decode_capture(const fs::path& file,
       ++all.others;
       continue;
     }
+    ++all.messages;
     std::string error;
     print(in_json(number, *header, found, error));
     all.has_errors = all.has_errors || !error.empty();

@@ -10,9 +10,10 @@ namespace sofof::apps {
 
 /// What stands in a capture besides messages.
 struct capture_summary {
-  std::uint64_t others = 0; ///< Packets that carry no ITS message.
-  bool has_errors = false;  ///< A packet or message that cannot be read.
-  std::string cut_off;      ///< Why the file cannot be read to its end, if so.
+  std::uint64_t messages = 0; ///< Good ones and others.
+  std::uint64_t others = 0;   ///< Packets that carry no ITS message.
+  bool has_errors = false;    ///< A packet or message that cannot be read.
+  std::string cut_off; ///< Why the file cannot be read to its end, if so.
 };
 
 /// Turns each ITS message of a capture (pcap, pcapng) into a line of JSON:

@@ -36,6 +36,8 @@ int decode_file(const std::string& file) {
     std::cerr << fmt::format("sofof: {} packets without an ITS message were "
                              "skipped.\n",
                              all.others);
+  if (all.messages == 0 && all.others == 0)
+    std::cerr << fmt::format("sofof: {}: there are no packets.\n", file);
   if (!all.cut_off.empty())
     std::cerr << fmt::format("sofof: {}: the capture ends here: {}.\n", file,
                              all.cut_off);
@@ -60,6 +62,9 @@ void add_decode(CLI::App& app, int& exit_code) {
                    "input) of Ethernet or IEEE 802.11, with GeoNetworking and "
                    "BTP; signatures are not verified")
       ->type_name("FILE")
+      ->check([](const std::string& file) {
+        return std::string{file.empty() ? "a file's name is expected" : ""};
+      })
       ->excludes(hex);
   command->footer(
       "Prints a JSON object a line; where a message is wrong, {\"error\": ..., "

@@ -41,8 +41,10 @@ int ask(const health_arguments& args) {
     auto word = answer.body.substr(0, answer.body.find('\n'));
     if (answer.status != good)
       word += fmt::format(" (HTTP status {})", answer.status);
+    else if (word != "ready")
+      word += " (no answer of sofof)";
     std::cout << printable(std::move(word)) << '\n';
-    return answer.status == good ? 0 : 1;
+    return answer.status == good && answer.body == "ready\n" ? 0 : 1;
   } catch (const network::network_error& problem) {
     std::cout << problem.what() << '\n';
     return 1;
@@ -63,7 +65,8 @@ void add_health(CLI::App& app, int& exit_code) {
       ->add_option("--timeout", args->patience,
                    "How long to wait for the answer (default 2s)")
       ->type_name("TIME");
-  command->footer("Prints one word and exits with 0 if it is ready, else 1.");
+  command->footer(
+      "Prints what it answers, and exits with 0 if that is \"ready\", else 1.");
   command->callback([args, &exit_code] { exit_code = ask(*args); });
 }
 

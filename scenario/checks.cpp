@@ -231,6 +231,9 @@ void check_whole(const scenario_definition& all, const toml_file& source) {
   check_providers(all, source);
   check_placement(all, source);
   check_obstacles(all, source);
+  if (all.record.plans && !all.record.tracks)
+    source.refuse("record.plans",
+                  "needs tracks; leave out record.tracks = false.");
 }
 
 } // namespace sofof::scenario

@@ -430,6 +430,9 @@ run_outcome run_part(const scenario_definition& s, const run_options& options,
   std::optional<datagram_air> udp;
   if (options.udp)
     udp.emplace(*options.udp);
+  if (options.udp)
+    console << "datagrams go to " << network::print_address(options.udp->to)
+            << std::endl;
   if (options.udp && options.udp->from)
     console << "datagrams are heard at " << udp->address() << std::endl;
   const auto kept = make_keeper(name, s.seed, info, options);

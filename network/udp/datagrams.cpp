@@ -12,6 +12,7 @@
 #include <array>
 #include <cassert>
 #include <cerrno>
+#include <netinet/in.h>
 #include <poll.h>
 #include <string_view>
 #include <system_error>
@@ -35,8 +36,21 @@ socket_address resolved(const network_address& address) {
   return all.front();
 }
 
+bool is_multicast(const socket_address& x) {
+  if (x.storage.ss_family == AF_INET6)
+    return IN6_IS_ADDR_MULTICAST(
+        &reinterpret_cast<const sockaddr_in6*>(&x.storage)->sin6_addr);
+  return IN_MULTICAST(
+      ntohl(reinterpret_cast<const sockaddr_in*>(&x.storage)->sin_addr.s_addr));
+}
+
 descriptor socket_for(const network_address& to, const socket_address& there,
                       const std::optional<network_address>& from) {
+  if (to.port == 0)
+    throw network_error{
+        fmt::format("no datagrams can go to {}: 0 is no port of "
+                    "a program that waits for them",
+                    print_address(to))};
   const auto refuse = [&](const network_address& where, std::string_view why) {
     throw network_error{fmt::format(
         "no datagrams can come at {}: {}; choose another port or address",
@@ -49,6 +63,8 @@ descriptor socket_for(const network_address& to, const socket_address& there,
   if (!from)
     return own;
   const auto here = resolved(*from);
+  if (is_multicast(here))
+    refuse(*from, "it is a group, and groups are not joined");
   if (here.storage.ss_family != there.storage.ss_family)
     refuse(*from, fmt::format("{} is of another family; give both as IPv4 or "
                               "both as IPv6",

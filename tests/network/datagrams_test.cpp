@@ -75,6 +75,14 @@ TEST_CASE("an address that is taken, or of another family, is refused") {
   const auto again = [&] { listener{{"127.0.0.1", 9}, there.line.address()}; };
   CHECK_THROWS_WITH_AS(again(), doctest::Contains("no datagrams can come at"),
                        network::network_error);
+  const auto nowhere = [] { listener{any_port}; };
+  CHECK_THROWS_WITH_AS(nowhere(), doctest::Contains("0 is no port"),
+                       network::network_error);
+  const auto group = [] {
+    listener{{"127.0.0.1", 9}, network_address{"239.1.2.3", 0}};
+  };
+  CHECK_THROWS_WITH_AS(group(), doctest::Contains("it is a group"),
+                       network::network_error);
   const auto mixed = [] { listener{{"::1", 9}, any_port}; };
   CHECK_THROWS_WITH_AS(mixed(), doctest::Contains("of another family"),
                        network::network_error);
