@@ -20,7 +20,7 @@ constexpr sender_id nobody_known = sender_id::rep{1} << 62;
 
 /// So many foreign stations are heard at once, each until it has been silent
 /// for so long; no street has more.
-constexpr std::size_t most_stations = 256;
+constexpr std::size_t most_foreign_stations = 256;
 constexpr duration silence = std::chrono::seconds{10};
 
 /// Bounds what strangers can make others remember.
@@ -29,10 +29,10 @@ public:
   /// @returns whether there is room for it, as there is for who was heard.
   bool admits(station_id who, time_point now) {
     if (!heard_.contains(who)) {
-      if (heard_.size() >= most_stations)
+      if (heard_.size() >= most_foreign_stations)
         std::erase_if(
             heard_, [now](const auto& x) { return now - x.second > silence; });
-      if (heard_.size() >= most_stations)
+      if (heard_.size() >= most_foreign_stations)
         return false;
     }
     heard_[who] = now;

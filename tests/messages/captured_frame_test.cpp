@@ -74,15 +74,20 @@ const octets to_all_80211 = from_hex("0000"
                                      "ffffffffffff"
                                      "1000");
 
-btp_packet found_in(link_layer layer, const octets& frame) {
+/// What a frame carries, for longer than the frame lives.
+struct found_message {
+  octets message;
+  std::uint16_t port = 0;
+  bool is_signed = false;
+};
+
+found_message found_in(link_layer layer, const octets& frame) {
   const auto found = find_message(layer, frame);
   const auto* packet = std::get_if<btp_packet>(&found);
   REQUIRE(packet);
-  return *packet;
-}
-
-bool is_message(const btp_packet& found, const octets& message) {
-  return std::ranges::equal(found.message, message);
+  return {{packet->message.begin(), packet->message.end()},
+          packet->port,
+          packet->is_signed};
 }
 
 std::string trouble(const octets& frame) {
@@ -99,7 +104,7 @@ TEST_CASE("a message is found below each layer that sniffers record") {
   const auto snap = from_hex("aaaa03000000") + geonet;
   const auto found = [&](link_layer layer, const octets& frame) {
     const auto x = found_in(layer, frame);
-    return is_message(x, message) && x.port == btp_port::cam && !x.is_signed;
+    return x.message == message && x.port == btp_port::cam && !x.is_signed;
   };
   const auto padding = from_hex("00000000");
   CHECK(found(link_layer::ethernet, ethernet_frame(message)));
@@ -127,7 +132,7 @@ TEST_CASE("a signed message is found, and nobody says that it is genuine") {
     const auto found =
         found_in(link_layer::ethernet,
                  addresses + from_hex("8947") + signed_packet(message));
-    CHECK(is_message(found, message));
+    CHECK(found.message == message);
     CHECK(found.is_signed);
   }
 }
@@ -146,7 +151,7 @@ TEST_CASE("a message comes by each kind of GeoNetworking packet that has one") {
     CAPTURE(code);
     auto frame = addresses + from_hex("8947") + head + octets(header) + payload;
     frame[ethernet_header + 5] = static_cast<std::byte>(code);
-    CHECK(is_message(found_in(link_layer::ethernet, frame), message));
+    CHECK(found_in(link_layer::ethernet, frame).message == message);
   }
 }
 
