@@ -32,6 +32,9 @@ std::optional<std::string_view> line_file::next() {
   auto end = window_.find('\n', at_);
   while (end == window_.npos) {
     const auto searched = window_.size() - at_;
+    if (searched > longest_line)
+      throw input_error{fmt::format("{}:{}: this line is longer than {} KiB.",
+                                    name_, number_ + 1, longest_line >> 10)};
     if (!read_on())
       break;
     end = window_.find('\n', searched);

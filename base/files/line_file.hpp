@@ -14,6 +14,10 @@ namespace sofof {
 /// A regular file of which a block or a line is in memory, whichever is longer.
 class line_file {
 public:
+  /// A line is refused once so much of it is read and no end is there; bytes.
+  /// No line that SOFOF writes comes near it.
+  static constexpr std::size_t longest_line = std::size_t{1} << 20;
+
   /// @throws input_error when it cannot be read, as `next` does.
   explicit line_file(const std::filesystem::path& file);
 

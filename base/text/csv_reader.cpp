@@ -67,6 +67,7 @@ bool csv_reader::next() {
 /// Takes as many lines as belong to the next row.
 bool csv_reader::take_row() {
   row_.clear();
+  bool quoted = false;
   for (;;) {
     const auto line = lines_.next();
     if (!line || (was_killed_ && !lines_.has_end()))
@@ -77,8 +78,11 @@ bool csv_reader::take_row() {
     if (!lines_.has_end())
       break;
     row_ += '\n';
-    if (std::ranges::count(row_, '"') % 2 == 0)
-      break; // no quote is open
+    quoted ^= std::ranges::count(*line, '"') % 2 == 1;
+    if (!quoted)
+      break;
+    if (row_.size() > line_file::longest_line)
+      refuse("a quote is opened in this line and not closed.");
   }
   at_ = 0;
   return !row_.empty();

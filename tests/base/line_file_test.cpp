@@ -37,6 +37,22 @@ TEST_CASE("a file is read line by line, however long it and its lines are") {
   }
 }
 
+TEST_CASE("a line of more than a mebibyte is refused, wherever it ends") {
+  const scratch at;
+  const auto longest = line_file::longest_line;
+  for (const auto* end : {"\n", ""}) {
+    write_text(at.path() / "file",
+               "first\n" + std::string(2 * longest, 'x') + end);
+    line_file file{at.path() / "file"};
+    file.next();
+    CHECK_THROWS_WITH_AS(file.next(),
+                         ((at.path() / "file").string()
+                          + ":2: this line is longer than 1024 KiB.")
+                             .c_str(),
+                         input_error);
+  }
+}
+
 TEST_CASE("what is no file of lines is refused") {
   const scratch at;
   CHECK_THROWS_AS(line_file{at.path()}, input_error);

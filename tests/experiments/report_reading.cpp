@@ -199,6 +199,18 @@ TEST_CASE("a line that was cut off is refused in every file of lines") {
   }
 }
 
+TEST_CASE("a quote that is never closed does not read on to the file's end") {
+  const played_folder folder;
+  std::string text = folder.read("episodes.csv");
+  const auto lines = std::ranges::count(text, '\n');
+  text += '"';
+  for (int i = 0; i < 2'000'000; ++i)
+    text += "a\n";
+  folder.write("episodes.csv", text);
+  check_says(error_of(folder), fmt::format("episodes.csv:{}: ", lines + 1),
+             {"a quote is opened in this line and not closed"});
+}
+
 TEST_CASE("a folder without a configuration is no results folder") {
   const played_folder folder;
   std::filesystem::remove(folder.path() / "config.toml");
