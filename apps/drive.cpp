@@ -1,5 +1,6 @@
 // sofof drive: runs vehicles, which providers of other processes plan for.
 #include "apps/address_argument.hpp"
+#include "apps/broker_arguments.hpp"
 #include "apps/command.hpp"
 #include "apps/host_arguments.hpp"
 #include "apps/log_argument.hpp"
@@ -7,6 +8,7 @@
 #include "apps/signals.hpp"
 #include "base/input_error.hpp"
 #include "network/keys/station_list.hpp"
+#include "scenario/broker_hosts.hpp"
 #include "scenario/hosts.hpp"
 
 #include <fmt/format.h>
@@ -43,6 +45,7 @@ void add_drive(CLI::App& app, int& exit_code) {
   struct arguments {
     run_arguments run;
     host_arguments host;
+    broker_arguments broker;
     log_argument log;
     scenario::drive_options what;
     std::vector<std::string> providers;
@@ -56,13 +59,13 @@ void add_drive(CLI::App& app, int& exit_code) {
                    "Where a provider listens; NAME is the scenario's, needed "
                    "if it has several; may be given several times")
       ->type_name("[NAME=]HOST:PORT")
-      ->required()
       ->take_all()
       ->expected(1);
   command
       ->add_option("--station", args->stations,
                    "Which vehicles, e.g. 101-106 (default all)")
       ->type_name("LIST");
+  args->broker.add_to(*command);
   args->host.add_to(*command);
   args->log.add_to(*command);
   command->footer(
@@ -72,13 +75,20 @@ void add_drive(CLI::App& app, int& exit_code) {
     const auto s = args->run.what.load();
     for (const auto& text : args->providers)
       args->what.providers.push_back(to_provider(text));
+    const auto broker = args->broker.given(s);
+    if (args->providers.empty() == !broker)
+      throw input_error("drive needs --provider for each provider, or a "
+                        "--broker that leads to all of them");
     args->what.stations = to_stations(args->stations);
     args->host.give(args->what);
     catch_signals();
     exit_code = static_cast<int>(args->log.with_console(
         args->run.given(), "drive",
         [&](const auto& how, std::ostream& console) {
-          return scenario::drive(s, args->what, how, interrupted, console);
+          return broker ? scenario::drive_by_broker(s, args->what, *broker, how,
+                                                    interrupted, console)
+                        : scenario::drive(s, args->what, how, interrupted,
+                                          console);
         }));
   });
 }

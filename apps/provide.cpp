@@ -1,10 +1,12 @@
 // sofof provide: runs a provider for vehicles of other processes.
 #include "apps/address_argument.hpp"
+#include "apps/broker_arguments.hpp"
 #include "apps/command.hpp"
 #include "apps/host_arguments.hpp"
 #include "apps/log_argument.hpp"
 #include "apps/run_arguments.hpp"
 #include "apps/signals.hpp"
+#include "scenario/broker_hosts.hpp"
 #include "scenario/hosts.hpp"
 
 #include <memory>
@@ -30,6 +32,7 @@ void add_provide(CLI::App& app, int& exit_code) {
   struct arguments {
     run_arguments run;
     host_arguments host;
+    broker_arguments broker;
     log_argument log;
     scenario::provide_options what;
     std::string listen = "127.0.0.1:4711";
@@ -46,6 +49,7 @@ void add_provide(CLI::App& app, int& exit_code) {
       ->add_option("--name", args->what.name,
                    "Which provider of the scenario, if it has several")
       ->type_name("NAME");
+  args->broker.add_to(*command);
   args->host.add_to(*command);
   args->log.add_to(*command);
   command->footer(
@@ -55,6 +59,7 @@ void add_provide(CLI::App& app, int& exit_code) {
   command->callback([args, &exit_code] {
     const auto s = args->run.what.load();
     args->what.listen = address_of(args->listen);
+    const auto broker = args->broker.given(s);
     auto options = args->run.given();
     options.endless = args->run.what.length.empty();
     args->host.give(args->what);
@@ -62,7 +67,10 @@ void add_provide(CLI::App& app, int& exit_code) {
     allow_many_files();
     exit_code = static_cast<int>(args->log.with_console(
         options, "provide", [&](const auto& how, std::ostream& console) {
-          return scenario::provide(s, args->what, how, interrupted, console);
+          return broker ? scenario::provide_by_broker(s, args->what, *broker,
+                                                      how, interrupted, console)
+                        : scenario::provide(s, args->what, how, interrupted,
+                                            console);
         }));
   });
 }

@@ -42,6 +42,8 @@ struct network_options {
   /// File with measured delays, for the profile "trace"; relative to the
   /// scenario file.
   std::string trace;
+  /// What connects processes: "direct", or "amqp" by a broker.
+  std::string transport = "direct";
   /// The profile as all use it, with its trace; a loaded scenario has one.
   std::shared_ptr<const channel::channel_profile> channel;
 

@@ -108,6 +108,12 @@ void network_options::visit_options(option_visitor& s) {
     s.refuse("profile", "needs a file to replay: add trace = \"FILE\".");
   }
   profile.visit_options(s);
+  if (!s.has("transport", transport != "direct"))
+    return;
+  s.field("transport", transport);
+  constexpr std::string_view known[] = {"direct", "amqp"};
+  if (std::ranges::count(known, transport) == 0)
+    s.refuse("transport", unknown_word("transport", transport, known));
 }
 
 void compute_options::visit_options(option_visitor& s) {

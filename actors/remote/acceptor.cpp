@@ -23,10 +23,18 @@ namespace {
 constexpr std::size_t most_handshakes = 256;
 constexpr std::size_t most_handshakes_of_one = 2;
 
+/// A process; several that come by a broker are actors of this one.
+struct asking_process {
+  caf::node_id node;
+  caf::actor_id actor = 0; ///< Of this process; 0 for other nodes.
+
+  bool operator==(const asking_process&) const = default;
+};
+
 /// A process that may introduce itself.
 struct pending_peer {
   caf::strong_actor_ptr in; ///< Its handshake.
-  caf::node_id process;
+  asking_process process;
 };
 
 struct acceptor_state {
@@ -40,7 +48,8 @@ struct acceptor_state {
   /// @returns a number to sign, and where to do so.
   std::pair<std::string, caf::strong_actor_ptr> begin_handshake() {
     const auto& who = self->current_sender();
-    const auto process = who ? who->node() : caf::node_id{};
+    const auto node = who ? who->node() : caf::node_id{};
+    const asking_process process{node, node == self->node() ? who->id() : 0};
     std::string nonce;
     try {
       nonce = setup->draw_nonce();
@@ -50,14 +59,14 @@ struct acceptor_state {
     }
     make_room(process);
     const auto in =
-        spawn_handshake(self->system(), admissions, setup, process, nonce);
+        spawn_handshake(self->system(), admissions, setup, node, nonce);
     self->monitor(in);
     self->send(admissions, in);
     pending.push_back({caf::actor_cast<caf::strong_actor_ptr>(in), process});
     return {std::move(nonce), pending.back().in};
   }
 
-  void make_room(const caf::node_id& process) {
+  void make_room(const asking_process& process) {
     const auto same =
         std::ranges::count(pending, process, &pending_peer::process);
     if (static_cast<std::size_t>(same) >= most_handshakes_of_one)

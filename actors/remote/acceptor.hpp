@@ -1,6 +1,7 @@
 // Where processes of vehicles come in.
 #pragma once
 
+#include "actors/remote/heartbeat.hpp"
 #include "messages/etsi/its_time.hpp"
 #include "messages/type_ids.hpp"
 
@@ -28,6 +29,7 @@ struct acceptor_setup {
   std::uint64_t world = 0; ///< Fingerprint that peers must have as well.
   messages::etsi::its_clock clock;
   messages::recorder_actor recorder;
+  heartbeat_pace pace{};
   /// @returns a number that nobody can guess, new every time. What it throws
   /// refuses the one who needs it.
   std::function<std::string()> draw_nonce;

@@ -87,7 +87,7 @@ struct admissions_state {
     const auto endpoint = spawn_provider_endpoint(
         self->system(), {setup->provider, who->peer, stations, setup->clock,
                          messages::etsi::its_clock{who->hello.epoch_unix_ms},
-                         setup->recorder, sender_of(who->name)});
+                         setup->recorder, sender_of(who->name), setup->pace});
     self->monitor(endpoint);
     peers.push_back({endpoint, who->name, stations});
     publish(stations, true);

@@ -1,6 +1,7 @@
 // A connection to a provider on another host, made again whenever it is lost.
 #pragma once
 
+#include "actors/remote/heartbeat.hpp"
 #include "actors/remote/provider_proxy.hpp"
 #include "base/random.hpp"
 #include "messages/etsi/its_time.hpp"
@@ -34,6 +35,7 @@ struct provider_connection_setup {
   /// own.
   std::function<void(std::function<void()> attempt)> aside;
   std::uint32_t protocol = messages::remote_protocol;
+  heartbeat_pace pace{};
   /// Adds the proof that we may speak for our stations, where one is needed.
   std::function<void(messages::peer_hello&, const std::string& nonce)> prove;
   /// Called whenever the provider has let us in.

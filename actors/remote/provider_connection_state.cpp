@@ -32,10 +32,11 @@ void provider_connection_state::start(provider_connection_setup with) {
 void provider_connection_state::on_tick() {
   const auto t = now(self);
   if (peer && life->is_lost(t))
-    disconnect("it has answered nothing for a second");
-  else if (peer)
+    disconnect(fmt::format("it has answered nothing for {} s",
+                           to_seconds(setup->pace.silence_limit)));
+  else if (peer && life->is_due(t))
     send_to_provider(life->beat(t));
-  else if (attempts->is_due(t))
+  else if (!peer && attempts->is_due(t))
     attempt();
   send_after(self, self, protocol::ping_period, messages::tick_atom_v);
 }
@@ -100,8 +101,10 @@ void provider_connection_state::on_welcome(
   setup->on_connected();
   peer = with;
   const auto t = now(self);
-  life.emplace(t, std::chrono::milliseconds{welcome.epoch_unix_ms
-                                            - setup->clock.epoch_unix_ms()});
+  life.emplace(t,
+               std::chrono::milliseconds{welcome.epoch_unix_ms
+                                         - setup->clock.epoch_unix_ms()},
+               setup->pace);
   self->monitor(peer);
   send_to_provider(life->beat(t));
   provider = welcome.provider;

@@ -2,6 +2,7 @@
 // their provider.
 #pragma once
 
+#include "actors/remote/heartbeat.hpp"
 #include "messages/etsi/its_time.hpp"
 #include "messages/type_ids.hpp"
 
@@ -21,6 +22,7 @@ struct vehicle_connection_setup {
   messages::etsi::its_clock peer_clock; ///< As the peer has told it.
   messages::recorder_actor recorder;
   std::optional<sender_id> sender{}; ///< Of its certificate, if any.
+  heartbeat_pace pace{};
 };
 
 /// Stands for all vehicles of one peer: gives each a requester of its own that
@@ -28,7 +30,7 @@ struct vehicle_connection_setup {
 /// results one at a time, always the latest. What another peer sends, and what
 /// peer_rules object to, is dropped and logged.
 /// Ends when the peer does, when it is sent an exit, or when the peer has
-/// answered no ping for protocol::silence_limit; the provider then sees
+/// answered no ping for the limit of silence; the provider then sees
 /// all its stations lost.
 messages::provider_endpoint_actor
 spawn_provider_endpoint(caf::actor_system& sys, vehicle_connection_setup setup);

@@ -28,7 +28,8 @@ void vehicle_connection_state::start(
   endpoint = by;
   life.emplace(now(self),
                std::chrono::milliseconds{setup.peer_clock.epoch_unix_ms()
-                                         - setup.clock.epoch_unix_ms()});
+                                         - setup.clock.epoch_unix_ms()},
+               setup.pace);
   rules.emplace(setup.stations);
   results.emplace(results_per_station * setup.stations.size(),
                   protocol::silence_limit);
@@ -48,7 +49,8 @@ void vehicle_connection_state::on_tick() {
     leave("silent");
     return;
   }
-  send_to_peer(life->beat(t));
+  if (life->is_due(t))
+    send_to_peer(life->beat(t));
   send_after(self, self, protocol::ping_period, messages::tick_atom_v);
 }
 

@@ -18,7 +18,10 @@ int judge_certificate(X509_STORE_CTX* asked, void*) {
   auto& verdict = notes.verdict;
   verdict = notes.own.examine(*X509_STORE_CTX_get0_cert(asked));
   const bool wants_provider = SSL_is_server(tls) == 0;
-  if (verdict.who && verdict.who->is_provider() != wants_provider)
+  const bool takes_both =
+      !wants_provider && notes.service == tls_service::broker;
+  if (verdict.who && !takes_both
+      && verdict.who->is_provider() != wants_provider)
     verdict = {{},
                "names " + describe(*verdict.who)
                    + (wants_provider ? ", not a provider" : ", no station"),
@@ -27,7 +30,7 @@ int judge_certificate(X509_STORE_CTX* asked, void*) {
   return verdict.who ? 1 : 0;
 }
 
-tls_context make_tls_context(const credentials& own) {
+tls_context make_tls_context(const credentials& own, tls_service service) {
   ssl_context_ptr context{SSL_CTX_new(TLS_method())};
   auto* c = context.get();
   require_openssl(c && SSL_CTX_set_min_proto_version(c, TLS1_3_VERSION) == 1
@@ -51,13 +54,13 @@ tls_context make_tls_context(const credentials& own) {
   SSL_CTX_set_options(c, SSL_OP_IGNORE_UNEXPECTED_EOF);
   // Else one call would read as long as a peer sends what is no data.
   SSL_CTX_clear_mode(c, SSL_MODE_AUTO_RETRY);
-  return {own, std::move(context)};
+  return {own, std::move(context), service};
 }
 
 tls_handshake::tls_handshake(const tls_context& context, int socket,
                              tls_side side)
-    : notes_{new notes{context.own, {}}}, tls_{
-                                              SSL_new(context.settings.get())} {
+    : notes_{new notes{context.own, {}, context.service}},
+      tls_{SSL_new(context.settings.get())} {
   require_openssl(tls_ && SSL_set_fd(tls_.get(), socket) == 1, "beginning TLS");
   SSL_set_app_data(tls_.get(), notes_.get());
   if (side == tls_side::answerer)

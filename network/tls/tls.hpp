@@ -3,6 +3,7 @@
 
 #include "network/keys/credentials.hpp"
 #include "network/keys/openssl.hpp"
+#include "network/tls/tls_service.hpp"
 
 #include <memory>
 #include <string>
@@ -11,19 +12,22 @@ namespace sofof::network {
 
 /// Who opened a connection and who answered it.
 enum class tls_side {
-  opener,   ///< Shows stations, wants a provider.
-  answerer, ///< Shows a provider, wants stations.
+  opener,   ///< Shows stations, to a broker also a provider.
+  answerer, ///< Shows a provider.
 };
 
 /// What handshakes begin with.
 struct tls_context {
   credentials own;
   ssl_context_ptr settings;
+  tls_service service = tls_service::provider;
 };
 
 /// TLS 1.3 and nothing older, no sessions that are resumed.
+/// @param service  Which one answers: this process or its peer.
 /// @throws network_error when OpenSSL does not take the credentials.
-tls_context make_tls_context(const credentials& own);
+tls_context make_tls_context(const credentials& own,
+                             tls_service service = tls_service::provider);
 
 /// The handshake of a connection that does not block.
 class tls_handshake {
@@ -49,6 +53,7 @@ private:
   struct notes {
     credentials own;
     certificate_verdict verdict;
+    tls_service service;
   };
 
   friend int judge_certificate(X509_STORE_CTX* asked, void*);

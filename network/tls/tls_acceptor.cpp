@@ -50,7 +50,7 @@ public:
       : options_{std::move(options)}, listener_{listen_at(options_.listen)},
         port_{port_of(listener_)}, quota_{options_.most_connections,
                                           options_.most_per_peer},
-        context_{make_tls_context(provider_only(own))},
+        context_{make_tls_context(provider_only(own), options_.service)},
         log_{options_.on_refusal}, tunnels_{options_.idle} {
     tunnels_.revoke(own.revoked());
     thread_ = std::thread{[this] { run(); }};
@@ -65,7 +65,7 @@ public:
   }
 
   void renew(const credentials& own) {
-    auto context = make_tls_context(provider_only(own));
+    auto context = make_tls_context(provider_only(own), options_.service);
     {
       const std::lock_guard lock{mutex_};
       next_context_ = std::move(context);

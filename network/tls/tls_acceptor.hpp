@@ -7,6 +7,7 @@
 #include "network/keys/credentials.hpp"
 #include "network/network_address.hpp"
 #include "network/tls/peer_register.hpp"
+#include "network/tls/tls_service.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -21,6 +22,7 @@ namespace sofof::network {
 struct acceptor_options {
   network_address listen;       ///< Port 0: any that is free.
   std::uint16_t inner_port = 0; ///< On 127.0.0.1, where the bytes go.
+  tls_service service = tls_service::provider; ///< Which one is there.
   /// From the first packet to the connection with `inner_port`.
   std::chrono::milliseconds handshake_timeout{2000};
   /// A connection through which nothing at all crosses for so long is closed,

@@ -29,15 +29,16 @@ namespace {
 /// A pause when the system has no more files.
 constexpr std::chrono::milliseconds breather{100};
 
-std::optional<tls_context> context_for(const credentials* own) {
+std::optional<tls_context> context_for(const credentials* own,
+                                       tls_service service) {
   if (!own)
     return std::nullopt;
-  if (own->identity().is_provider())
+  if (own->identity().is_provider() && service == tls_service::provider)
     throw network_error{fmt::format(
         "the certificate names {}, but vehicles need one of their stations: "
         "`sofof keys issue --station` makes it",
         describe(own->identity()))};
-  return make_tls_context(*own);
+  return make_tls_context(*own, service);
 }
 
 std::string explain_connect_error(int error) {
@@ -60,7 +61,7 @@ class tls_connector::loop {
 public:
   loop(const credentials* own, connector_options options)
       : options_{std::move(options)}, listener_{listen_at({"127.0.0.1", 0})},
-        port_{port_of(listener_)}, context_{context_for(own)},
+        port_{port_of(listener_)}, context_{context_for(own, options_.service)},
         tunnels_{options_.idle} {
     if (own)
       tunnels_.revoke(own->revoked());
@@ -79,7 +80,7 @@ public:
   }
 
   void renew(const credentials& own) {
-    auto context = context_for(&own);
+    auto context = context_for(&own, options_.service);
     {
       const std::lock_guard lock{mutex_};
       next_context_ = std::move(context);

@@ -5,6 +5,7 @@
 #include "network/keys/credentials.hpp"
 #include "network/name_lookup.hpp"
 #include "network/network_address.hpp"
+#include "network/tls/tls_service.hpp"
 
 #include <chrono>
 #include <cstddef>
@@ -18,6 +19,7 @@ namespace sofof::network {
 struct connector_options {
   network_address remote;
   std::string provider; ///< Whom its certificate must name; empty: anybody.
+  tls_service service = tls_service::provider; ///< Which one it is.
   name_resolver resolver = &resolve;
   std::chrono::milliseconds lookup_timeout{2000};
   /// From the addresses to a connection with one of them.

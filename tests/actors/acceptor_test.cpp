@@ -314,12 +314,22 @@ TEST_CASE_FIXTURE(acceptor_world, "a process that knocks without end has two "
   const auto other = knock_from(7);
   std::vector<version_answer> all;
   for (int k = 0; k < 1000; ++k)
-    all.push_back(knock());
+    all.push_back(knock_from(8));
   for (std::size_t k = 0; k < 998; ++k)
     CHECK(is_gone(all[k].in));
   CHECK(!is_gone(all[998].in));
+  CHECK(!is_gone(all[999].in));
   CHECK(!is_gone(other.in));
-  CHECK(enter(all[999], hello).welcome);
+}
+
+TEST_CASE_FIXTURE(acceptor_world, "processes that come by a broker do not take "
+                                  "each other's handshakes") {
+  std::vector<version_answer> all;
+  for (int k = 0; k < 100; ++k)
+    all.push_back(knock()); // each an actor of this process
+  for (const auto& one : all)
+    CHECK(!is_gone(one.in));
+  CHECK(enter(all.front(), hello).welcome);
 }
 
 TEST_CASE_FIXTURE(acceptor_world,

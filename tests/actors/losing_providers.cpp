@@ -59,7 +59,7 @@ TEST_CASE_FIXTURE(provider_connection_world,
   CHECK(notes("provider_lost") == 1);
   CHECK(news[1]
         == "lost provider server at 10.0.0.5:4711: it has answered nothing for "
-           "a second; vehicles plan for themselves");
+           "1 s; vehicles plan for themselves");
 }
 
 TEST_CASE_FIXTURE(provider_connection_world,

@@ -1,5 +1,5 @@
 // Tests of what the program tells of its policies.
-#include "tests/processes/workplace.hpp"
+#include "tests/processes/hosts.hpp"
 #include "tests/support/contains.hpp"
 #include "tests/support/files.hpp"
 

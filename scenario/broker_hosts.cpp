@@ -1,0 +1,183 @@
+// A scenario on several hosts that an AMQP broker connects.
+#include "scenario/broker_hosts.hpp"
+
+#include "actors/broker/provider_side.hpp"
+#include "actors/broker/vehicle_side.hpp"
+#include "actors/runtime/supervisor.hpp"
+#include "network/keys/nonce.hpp"
+#include "scenario/host_parts.hpp"
+#include "scenario/secure_listener.hpp"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <ostream>
+#include <utility>
+
+namespace sofof::scenario {
+
+namespace {
+
+/// Clock exchanges over a broker cost it as much as CAMs do.
+constexpr actors::heartbeat_pace broker_pace{std::chrono::milliseconds{500},
+                                             std::chrono::seconds{2}};
+
+std::shared_ptr<network::key_ring> keys_for(const broker_options& broker,
+                                            const std::string& folder,
+                                            network::key_ring::user check) {
+  return load_keys(broker.url.at, folder, "--broker", std::move(check));
+}
+
+std::int64_t draw_link() {
+  const auto nonce = network::draw_nonce();
+  std::int64_t link = 0;
+  std::memcpy(&link, nonce.data(), std::min(nonce.size(), sizeof link));
+  return link;
+}
+
+std::function<void(const std::string&)>
+news_to(const std::shared_ptr<news_board>& board) {
+  return [board](const std::string& line) { board->log(line); };
+}
+
+/// Closes a line before those end that it tells; these may still send.
+struct line_closer {
+  std::shared_ptr<broker_line> line;
+  ~line_closer() { line->close(); }
+};
+
+actors::provider_side_setup
+provider_setup(const scenario_definition& s, std::size_t place,
+               const messages::acceptor_actor& acceptor,
+               const std::shared_ptr<broker_line>& line) {
+  return {.acceptor = acceptor,
+          .name = s.providers[place].name,
+          .station = provider_station(static_cast<std::uint32_t>(place)),
+          .user = line->user(),
+          .send = [line](const auto& x) { line->send(x); }};
+}
+
+actors::vehicle_side_setup
+vehicles_setup(const std::vector<station_id>& all, const broker_options& broker,
+               const std::shared_ptr<broker_line>& line) {
+  actors::vehicle_side_setup setup;
+  setup.station = all.empty() ? station_id{0} : all.front();
+  setup.user = line->user();
+  if (!setup.user.empty() && !broker.trusted)
+    setup.is_sent_by = [](const std::string& user,
+                          const std::string& provider) {
+      return user == network::describe({{}, provider});
+    };
+  setup.send = [line](const auto& x) { line->send(x); };
+  setup.draw_link = &draw_link;
+  return setup;
+}
+
+} // namespace
+
+run_outcome provide_by_broker(const scenario_definition& s,
+                              const provide_options& what,
+                              const broker_options& broker, run_options options,
+                              const std::atomic<bool>& interrupted,
+                              std::ostream& console) {
+  const auto place = find_provider(s, what.name, "--name");
+  const auto& name = s.providers[place].name;
+  check_lives(s.providers[place]);
+  const auto keys =
+      keys_for(broker, what.keys, [&](const network::credentials& own) {
+        check_identity(own, what.keys, name);
+      });
+  const auto time = make_network_runtime(what.clock);
+  const auto board = std::make_shared<news_board>();
+  options = options_of_host(std::move(options), "provide", name);
+  options.more_figures = figures_of(keys);
+  options.news = news_of(board, what, keys);
+  const auto here = share_of_provider(place, *time);
+  const auto line = std::make_shared<broker_line>(
+      broker, keys, *time,
+      actors::wire::selector_of_provider(
+          provider_station(static_cast<std::uint32_t>(place))),
+      news_to(board));
+  const line_closer closer{line};
+  const auto open = [&](const world_actors& actors) {
+    auto setup = acceptor_of(s, place, what.own_map, *time, board);
+    setup.examine = [keys](const messages::peer_hello& hello,
+                           const std::string& nonce, const caf::node_id&) {
+      return keys ? examine_signature(keys->now(), hello, nonce)
+                  : believe(hello);
+    };
+    setup.pace = broker_pace;
+    setup.provider = actors.providers.front();
+    setup.id = provider_at(static_cast<std::uint32_t>(place + 1), here.start);
+    setup.recorder = actors.recorder;
+    const auto acceptor =
+        actors::spawn_acceptor(time->system(), std::move(setup));
+    actors::watch(actors.supervisor, caf::actor_cast<caf::actor>(acceptor),
+                  "the acceptor");
+    auto side = std::make_shared<actors::provider_side>(
+        time->system(), provider_setup(s, place, acceptor, line));
+    line->open([side](const auto& x) { side->on_letter(x); },
+               [side] { side->lose(); });
+    console << fmt::format("provider {} serves over the broker {}", name,
+                           print_broker(broker.url))
+            << std::endl;
+  };
+  return run_part(s, options, here, *time, interrupted, console, open);
+}
+
+run_outcome drive_by_broker(const scenario_definition& s,
+                            const drive_options& what,
+                            const broker_options& broker, run_options options,
+                            const std::atomic<bool>& interrupted,
+                            std::ostream& console) {
+  check_stations(s, what.stations);
+  process_share here;
+  here.drives = [stations = what.stations](station_id x) {
+    return stations.empty() || stations.contains(x);
+  };
+  here.provides = [](std::size_t) { return false; };
+  const auto stations = connected_stations(s, here);
+  const auto keys =
+      keys_for(broker, what.keys, [&](const network::credentials& own) {
+        check_identity(own, what.keys, stations);
+      });
+  const auto time = make_network_runtime(what.clock);
+  const auto board = std::make_shared<news_board>();
+  options = options_of_host(std::move(options), "drive", "cars");
+  const auto line = std::make_shared<broker_line>(
+      broker, keys, *time, actors::wire::selector_of_vehicles(stations),
+      news_to(board));
+  const line_closer closer{line};
+  const auto side = std::make_shared<actors::vehicle_side>(
+      time->system(), vehicles_setup(stations, broker, line));
+  for (std::size_t place = 0; place < s.providers.size(); ++place) {
+    auto setup = connection_to(s, place, what, stations, board);
+    setup.address = print_broker(broker.url);
+    setup.clock = time->clock();
+    setup.pace = broker_pace;
+    if (keys)
+      prove_by(keys, setup);
+    setup.connect = [side, line, name = setup.provider]()
+        -> std::variant<messages::acceptor_actor, std::string> {
+      if (auto why = line->why_not())
+        return fmt::format("the broker cannot be reached: {}", *why);
+      return side->way_to(name);
+    };
+    here.remotes.push_back(
+        {place, [&time = *time, setup](const auto& recorder) {
+           auto with = setup;
+           with.recorder = recorder;
+           return actors::spawn_provider_connection(time.system(),
+                                                    std::move(with));
+         }});
+  }
+  options.news = news_of(board, what, keys);
+  options.more_figures = figures_of(keys);
+  const auto open = [&](const world_actors&) {
+    line->open([side](const auto& x) { side->on_letter(x); },
+               [side] { side->lose(); });
+  };
+  return run_part(s, options, here, *time, interrupted, console, open);
+}
+
+} // namespace sofof::scenario
