@@ -4,7 +4,9 @@
 #include "actors/broker/provider_side.hpp"
 #include "actors/broker/vehicle_side.hpp"
 #include "actors/runtime/supervisor.hpp"
+#include "actors/simulation/foreign_air.hpp"
 #include "network/keys/nonce.hpp"
+#include "scenario/datagram_air.hpp"
 #include "scenario/host_parts.hpp"
 #include "scenario/secure_listener.hpp"
 
@@ -55,6 +57,27 @@ provider_setup(const scenario_definition& s, std::size_t place,
           .station = provider_station(static_cast<std::uint32_t>(place)),
           .user = line->user(),
           .send = [line](const auto& x) { line->send(x); }};
+}
+
+/// @returns who hears stations that no process of this scenario has.
+std::shared_ptr<actors::foreign_air>
+ear_of_provider(const scenario_definition& s, const world_actors& actors,
+                runtime& time) {
+  return std::make_shared<actors::foreign_air>(
+      time.system(),
+      actors::foreign_air_setup{
+          actors.providers, {}, reader_of(s, time), stations_of(s)});
+}
+
+/// @returns who hears claims of vehicles of other processes.
+std::shared_ptr<actors::foreign_air>
+ear_of_vehicles(const scenario_definition& s, const world_actors& actors,
+                const process_share& here, runtime& time) {
+  auto own = stations_of(s);
+  std::erase_if(own, [&here](station_id x) { return !here.drives(x); });
+  return std::make_shared<actors::foreign_air>(
+      time.system(), actors::foreign_air_setup{
+                         {}, actors.air, reader_of(s, time), std::move(own)});
 }
 
 actors::vehicle_side_setup
@@ -114,8 +137,13 @@ run_outcome provide_by_broker(const scenario_definition& s,
         actors::spawn_acceptor(time->system(), std::move(setup));
     actors::watch(actors.supervisor, caf::actor_cast<caf::actor>(acceptor),
                   "the acceptor");
-    auto side = std::make_shared<actors::provider_side>(
-        time->system(), provider_setup(s, place, acceptor, line));
+    auto of_side = provider_setup(s, place, acceptor, line);
+    of_side.on_foreign = [ear =
+                              ear_of_provider(s, actors, *time)](auto message) {
+      ear->on_message(std::move(message));
+    };
+    auto side = std::make_shared<actors::provider_side>(time->system(),
+                                                        std::move(of_side));
     line->open([side](const auto& x) { side->on_letter(x); },
                [side] { side->lose(); });
     console << fmt::format("provider {} serves over the broker {}", name,
@@ -173,9 +201,19 @@ run_outcome drive_by_broker(const scenario_definition& s,
   }
   options.news = news_of(board, what, keys);
   options.more_figures = figures_of(keys);
-  const auto open = [&](const world_actors&) {
-    line->open([side](const auto& x) { side->on_letter(x); },
-               [side] { side->lose(); });
+  here.tell_others = [side](const messages::its_pdu& message) {
+    if (const auto from = message.station())
+      side->tell(*from, message);
+  };
+  const auto open = [&](const world_actors& actors) {
+    line->open(
+        [side, ear = ear_of_vehicles(s, actors, here, *time)](const auto& x) {
+          if (const auto* told = std::get_if<actors::wire::broadcast>(&x.what))
+            ear->on_message(told->message);
+          else
+            side->on_letter(x);
+        },
+        [side] { side->lose(); });
   };
   return run_part(s, options, here, *time, interrupted, console, open);
 }

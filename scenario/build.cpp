@@ -293,7 +293,8 @@ private:
                obstacles(s_), world_.recorder, s_.traffic.grants_crossings()});
     watch(world_.road, "the road");
     world_.air =
-        actors::spawn_air(sys_, {s_.network.channel, noise_of(s_, "air"), 300});
+        actors::spawn_air(sys_, {s_.network.channel, noise_of(s_, "air"), 300,
+                                 here_.tell_others});
     watch(world_.air, "the air");
   }
 

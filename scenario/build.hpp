@@ -34,6 +34,8 @@ struct process_share {
         spawn_provider_connection;
   };
   std::vector<remote_provider> remotes;
+  /// Tells other processes what its vehicles tell each other; may be empty.
+  std::function<void(const messages::its_pdu&)> tell_others{};
   /// Whether vehicles of other processes come to its providers.
   bool serves_others = false;
 };

@@ -29,6 +29,8 @@ private:
   std::shared_ptr<messages::record_sink> then_;
 };
 
+} // namespace
+
 std::set<station_id> stations_of(const scenario_definition& s) {
   std::set<station_id> all;
   for (const auto& fleet : s.fleets)
@@ -37,7 +39,14 @@ std::set<station_id> stations_of(const scenario_definition& s) {
   return all;
 }
 
-} // namespace
+std::function<messages::broadcast(const messages::its_pdu&, time_point)>
+reader_of(const scenario_definition& s, const runtime& time) {
+  return [where = messages::georeference{
+              messages::geo_frame{s.world->map.origin()},
+              time.clock()}](const messages::its_pdu& message, time_point now) {
+    return messages::decode(message, where, now);
+  };
+}
 
 datagram_air::datagram_air(const udp_options& what)
     : line_{std::make_shared<network::datagrams>(
@@ -62,12 +71,7 @@ void datagram_air::hear_for(const world_actors& actors,
   setup.providers = actors.providers;
   setup.air = actors.air;
   setup.own = stations_of(s);
-  setup.decode =
-      [where = messages::georeference{
-           messages::geo_frame{s.world->map.origin()},
-           time.clock()}](const messages::its_pdu& message, time_point now) {
-        return messages::decode(message, where, now);
-      };
+  setup.decode = reader_of(s, time);
   const std::lock_guard lock{hearing_->mutex};
   hearing_->ear.emplace(time.system(), std::move(setup));
 }

@@ -10,9 +10,17 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace sofof::scenario {
+
+/// @returns how a message of another program is read.
+std::function<messages::broadcast(const messages::its_pdu&, time_point)>
+reader_of(const scenario_definition& s, const runtime& time);
+
+/// @returns all stations that the scenario's fleets have.
+std::set<station_id> stations_of(const scenario_definition& s);
 
 /// Sends what stations of this process send, and lets them hear others.
 class datagram_air {

@@ -19,7 +19,8 @@ struct provider_side_setup {
   station_id station = 0; ///< Its own.
   std::string user;       ///< As whom it sends.
   std::function<void(const wire::letter&)> send;
-  /// Hears ITS messages of stations that no process has introduced.
+  /// Hears ITS messages for everybody of stations that no process has
+  /// introduced.
   std::function<void(messages::its_pdu)> on_foreign = [](auto&&) {};
 };
 

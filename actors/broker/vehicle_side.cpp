@@ -44,17 +44,22 @@ struct vehicle_side::shared {
   const vehicle_side_setup setup;
   std::mutex mutex; // of the following
   std::map<std::int64_t, open_way> ways;
-  std::map<messages::stream_id, std::vector<std::byte>> latest;
+  std::map<std::pair<station_id, std::byte>, std::vector<std::byte>> latest;
 
-  /// @returns whether a CAM or CPM is not the one that was sent last.
-  bool is_new(const messages::stream_id& stream,
-              const messages::its_pdu& message) {
-    const std::lock_guard lock{mutex};
-    auto& last = latest[stream];
-    if (last == message.octets)
-      return false;
-    last = message.octets;
-    return true;
+  /// Sends a CAM, CPM or MCM that is for everybody, if it is not the one of
+  /// this kind that was sent last.
+  void tell(station_id from, const messages::its_pdu& message) {
+    if (message.octets.size() < 2)
+      return;
+    {
+      const std::lock_guard lock{mutex};
+      auto& last = latest[{from, message.octets[1]}];
+      if (last == message.octets)
+        return;
+      last = message.octets;
+    }
+    setup.send(
+        {.user = setup.user, .from = from, .what = wire::broadcast{message}});
   }
 
   std::optional<open_way> find(std::int64_t link) {
@@ -151,12 +156,8 @@ struct way_state {
   }
 
   void on_its_message(station_id from, const messages::its_pdu& message) {
-    const auto stream = messages::stream_of(from, message);
-    if (shared->is_new(stream, message))
-      shared->setup.send({.user = shared->setup.user,
-                          .from = from,
-                          .what = wire::broadcast{message}});
-    acknowledge(stream);
+    shared->tell(from, message);
+    acknowledge(messages::stream_of(from, message));
   }
 
   void on_input(const messages::service_input& input) {
@@ -268,6 +269,11 @@ vehicle_side::vehicle_side(caf::actor_system& sys, vehicle_side_setup setup)
 messages::acceptor_actor
 vehicle_side::way_to(const std::string& provider) const {
   return shared_->sys.spawn(way, shared_, shared_->setup.draw_link(), provider);
+}
+
+void vehicle_side::tell(station_id from,
+                        const messages::its_pdu& message) const {
+  shared_->tell(from, message);
 }
 
 void vehicle_side::on_letter(const wire::letter& x) const {

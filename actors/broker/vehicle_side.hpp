@@ -38,6 +38,10 @@ public:
   /// it first, and with `lose`.
   messages::acceptor_actor way_to(const std::string& provider) const;
 
+  /// Tells everybody what a station of this process has to say; once, whoever
+  /// else has it sent.
+  void tell(station_id from, const messages::its_pdu& message) const;
+
   /// A letter has come.
   void on_letter(const wire::letter& x) const;
 

@@ -55,6 +55,8 @@ struct air_state {
   void on_word(station_id::rep from, point at, const messages::its_pdu& what) {
     const auto sent = now(self);
     const auto is_foreign = !ears.contains(from);
+    if (!is_foreign && setup.tell_others)
+      setup.tell_others(what);
     const auto number =
         static_cast<std::uint64_t>(sent.time_since_epoch().count());
     for (const auto& [who, ear] : ears) {

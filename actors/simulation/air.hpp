@@ -7,6 +7,7 @@
 
 #include <caf/actor_system.hpp>
 
+#include <functional>
 #include <memory>
 
 namespace sofof::actors {
@@ -16,6 +17,9 @@ struct air_setup {
   std::shared_ptr<const channel::channel_profile> channel; ///< Not null.
   random_stream noise{0, ""};
   double range_m = 300;
+  /// Tells other processes what vehicles of this one say; empty: there are
+  /// none.
+  std::function<void(const messages::its_pdu&)> tell_others{};
 };
 
 /// Carries what one vehicle tells to all that are near it, to each with its own

@@ -53,6 +53,8 @@ constexpr std::chrono::milliseconds idle_limit{5000};
 constexpr std::chrono::milliseconds longest_ttl{5000}, usual_ttl{1000};
 constexpr int publisher_credit = 500; // messages
 constexpr std::size_t longest_address = 256;
+/// Octets of a message besides its body, about.
+constexpr std::size_t usual_head = 256;
 /// Octets that wait for one receiver, and for all.
 constexpr std::size_t most_waiting = std::size_t{4} << 20;
 constexpr std::size_t most_waiting_in_all = std::size_t{64} << 20;
@@ -177,7 +179,7 @@ private:
       options_.on_refusal(*line);
   }
 
-  void pass_on(const std::string& address, const proton::message& m,
+  void pass_on(const std::string& address, proton::message&& m,
                const properties& all, std::size_t size);
   void enqueue(const std::shared_ptr<subscriber>& to,
                const std::shared_ptr<const passed_on>& one);
@@ -325,9 +327,10 @@ private:
     }
     try {
       const auto all = properties_of(m);
-      const auto size = size_of(m);
-      if (const auto why = objection_to(m, all); why.empty())
-        all_.pass_on(d.receiver().target().address(), m, all, size);
+      const auto body = body_of(m);
+      if (const auto why = objection_to(m, all, body); why.empty())
+        all_.pass_on(d.receiver().target().address(), std::move(m), all,
+                     body.size() + usual_head);
       else
         refuse(why);
     } catch (const proton::error&) {
@@ -335,24 +338,21 @@ private:
     }
   }
 
-  static std::size_t size_of(const proton::message& m) {
-    constexpr std::size_t usual_head = 256;
-    const auto& body = m.body();
-    return usual_head
-           + (body.type() == proton::BINARY
-                  ? proton::get<proton::binary>(body).size()
-                  : m.encode().size());
+  static proton::binary body_of(const proton::message& m) {
+    return m.body().type() == proton::BINARY
+               ? proton::get<proton::binary>(m.body())
+               : proton::binary{};
   }
 
-  std::string_view objection_to(const proton::message& m,
-                                const properties& all) const {
+  std::string_view objection_to(const proton::message& m, const properties& all,
+                                const proton::binary& body) const {
     const auto* station = find<std::uint32_t>(all, "station_id");
     if (all.contains("mid")) {
-      if (m.body().type() != proton::BINARY)
-        return "sends an ITS message that is no binary";
-      const auto in = station_in(proton::get<proton::binary>(m.body()));
+      const auto in = station_in(body);
       if (!in || !station || *in != *station)
         return "sends the ITS message of a station that it does not name";
+    } else if (m.body().type() != proton::BINARY) {
+      return "sends what is no binary";
     }
     if (!who_)
       return {};
@@ -412,7 +412,7 @@ void broker::loop::leave(peer& who) {
   });
 }
 
-void broker::loop::pass_on(const std::string& address, const proton::message& m,
+void broker::loop::pass_on(const std::string& address, proton::message&& m,
                            const properties& all, std::size_t size) {
   std::shared_ptr<const passed_on> one;
   const auto [first, last] = subscribers_.equal_range(address);
@@ -424,7 +424,7 @@ void broker::loop::pass_on(const std::string& address, const proton::message& m,
       const auto ttl =
           told.count() > 0 ? std::min(told, longest_ttl) : usual_ttl;
       one = std::make_shared<const passed_on>(
-          passed_on{m, size, deadline_clock::now() + ttl});
+          passed_on{std::move(m), size, deadline_clock::now() + ttl});
     }
     enqueue(at->second, one);
   }
