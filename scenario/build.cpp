@@ -102,6 +102,14 @@ void share_cores(std::vector<actors::client_service>& services,
   }
 }
 
+/// @returns whether any channel depends on where a vehicle is.
+bool has_areas(const scenario_definition& s) {
+  for (std::size_t k = 0; k < s.providers.size(); ++k)
+    if (!s.channel_to(k)->areas.empty())
+      return true;
+  return false;
+}
+
 std::vector<oriented_box> obstacles(const scenario_definition& s) {
   std::vector<oriented_box> boxes;
   for (const auto& o : s.obstacles)
@@ -319,7 +327,9 @@ private:
       setup.v2x = s_.v2x;
       setup.air = world_.air;
       setup.antennas = antennas_;
-      setup.connect = connect(v.station, !fleet.fails_at);
+      if (has_areas(s_))
+        setup.place = std::make_shared<channel::vehicle_place>();
+      setup.connect = connect(v.station, !fleet.fails_at, setup.place);
     }
     setup.road = world_.road;
     setup.recorder = world_.recorder;
@@ -347,12 +357,14 @@ private:
   }
 
   /// @param lives  Whether the vehicle's computer does to the end.
-  std::function<messages::link_actor(std::size_t)> connect(station_id station,
-                                                           bool lives) {
-    return [here = connections_, station, lives,
+  std::function<messages::link_actor(std::size_t)>
+  connect(station_id station, bool lives,
+          std::shared_ptr<const channel::vehicle_place> place) {
+    return [here = connections_, station, lives, place = std::move(place),
             far = connect_remotes(station, lives)](std::size_t to) {
       const auto count = here->cells().size();
-      return to < count ? here->connect(station, to, lives) : far[to - count];
+      return to < count ? here->connect(station, to, lives, place)
+                        : far[to - count];
     };
   }
 
