@@ -150,6 +150,7 @@ void requester::on_result(const messages::service_result& result,
     link.answered(result.created, now);
   else
     link.arrived(result.created, now);
+  learn_place(service, provider, latency, false);
   setup_.policy->observe(policies::cycle_outcome{
       .at = now,
       .service = service.service.name.view(),
@@ -169,7 +170,10 @@ void requester::look_ahead(service_state& service, time_point now) {
     return;
   const auto path = setup_.path_ahead(ego_);
   const auto known = service.views(providers_, std::nullopt, now);
-  if (setup_.policy->foresees_home(context_of(service, known, {}, path, now)))
+  const auto ahead = forecasts(service, known, path);
+  auto context = context_of(service, known, {}, path, now);
+  context.forecasts = ahead;
+  if (setup_.policy->foresees_home(context))
     port_.foresee_home(service.service.name);
 }
 
@@ -454,6 +458,7 @@ void requester::log_end(service_state& service, const requester_session& ended,
 // The policy learns of a cycle of which no result came in time.
 void requester::observe_missed(const service_state& service,
                                provider_id provider, time_point now) {
+  learn_missed(service, provider);
   setup_.policy->observe(policies::cycle_outcome{
       .at = now,
       .service = service.service.name.view(),

@@ -182,6 +182,7 @@ public:
                   [&](const auto& v) { return !here_.drives(v.station); });
     add_road(placed);
     add_antennas();
+    world_.forecasts = std::make_shared<place_forecasts>(s_);
     const auto future = virtual_time_ ? foresee(s_) : nullptr;
     for (const auto& v : placed)
       add_vehicle(v, future ? future(v.station) : nullptr);
@@ -408,6 +409,7 @@ private:
             virtual_time = virtual_time_, computer = s_.fleets[v.fleet].compute,
             fails_at = s_.fleets[v.fleet].fails_at, start = start_,
             host = s_.network.channel->vehicle_host, future = std::move(future),
+            forecast = world_.forecasts->for_vehicle(),
             margins = s_.record.margins,
             trace = s_.record.trace](const messages::vehicle_actor& vehicle) {
       const auto path_ahead = [way](const messages::ego_state& ego) {
@@ -426,6 +428,7 @@ private:
                                                 .computer = computer,
                                                 .host = host,
                                                 .future = future,
+                                                .forecast = forecast,
                                                 .record_margins = margins,
                                                 .trace = trace});
       if (fails_at)
