@@ -106,6 +106,7 @@ void requester::expire(const request_timeout& x, time_point now) {
 void requester::expire(const start_timeout& x, time_point now) {
   const auto found = find(x.session);
   if (found && found.session->at == phase::starting) {
+    learn_missed(*found.service, x.session.provider);
     observe_missed(*found.service, x.session.provider, now);
     end(*found.service, x.session.provider,
         {messages::end_reason::no_data,

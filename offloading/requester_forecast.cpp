@@ -32,6 +32,7 @@ void requester::learn_place(const service_state& service, provider_id provider,
                             .is_offer = is_offer});
 }
 
+// What has nothing to do with the place, as a wrong result, is not told.
 void requester::learn_missed(const service_state& service,
                              provider_id provider) {
   if (setup_.forecast)

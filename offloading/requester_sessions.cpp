@@ -318,6 +318,9 @@ void requester::on_violation(const messages::qos_violation& violation,
   if (is_fault && violation.breach != messages::qos_breach::implausible)
     log(messages::event_type::violation, session, violation.why, now);
   auto& service = *found.service;
+  if (violation.breach == messages::qos_breach::gap
+      || violation.breach == messages::qos_breach::input_age)
+    learn_missed(service, session.provider);
   if (is_fault && violation.breach != messages::qos_breach::latency)
     observe_missed(service, session.provider, now);
   if (!violation.others_hold && found.session->at == phase::remote)
@@ -458,7 +461,6 @@ void requester::log_end(service_state& service, const requester_session& ended,
 // The policy learns of a cycle of which no result came in time.
 void requester::observe_missed(const service_state& service,
                                provider_id provider, time_point now) {
-  learn_missed(service, provider);
   setup_.policy->observe(policies::cycle_outcome{
       .at = now,
       .service = service.service.name.view(),

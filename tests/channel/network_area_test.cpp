@@ -39,9 +39,9 @@ link_direction link_over(const channel_profile& profile) {
 }
 
 /// @returns how long results take there; nullopt for those that are lost.
-std::vector<std::optional<duration>> delays(const channel_profile& profile,
-                                            const std::optional<point>& at,
-                                            std::uint64_t count = 500) {
+std::vector<std::optional<duration>> delays_at(const channel_profile& profile,
+                                               const std::optional<point>& at,
+                                               std::uint64_t count = 500) {
   auto link = link_over(profile);
   std::vector<std::optional<duration>> all;
   for (std::uint64_t n = 0; n < count; ++n) {
@@ -57,12 +57,12 @@ std::vector<std::optional<duration>> delays(const channel_profile& profile,
 } // namespace
 
 TEST_CASE("in an area messages take longer, and outside as long as before") {
-  const auto usual = delays(with_areas("paper_5g", {}), point{0, 0});
+  const auto usual = delays_at(with_areas("paper_5g", {}), point{0, 0});
   const auto profile =
       with_areas("paper_5g", {circle({0, 0}, 50, {.more_delay = 30ms})});
-  CHECK(delays(profile, point{51, 0}) == usual);
-  CHECK(delays(profile, std::nullopt) == usual);
-  const auto inside = delays(profile, point{50, 0}); // the rim is inside
+  CHECK(delays_at(profile, point{51, 0}) == usual);
+  CHECK(delays_at(profile, std::nullopt) == usual);
+  const auto inside = delays_at(profile, point{50, 0}); // the rim is inside
   for (std::size_t n = 0; n < usual.size(); ++n)
     CHECK(*inside[n] == *usual[n] + 30ms);
 }
@@ -70,8 +70,8 @@ TEST_CASE("in an area messages take longer, and outside as long as before") {
 TEST_CASE("a factor stretches the network's delay, not the time on the air") {
   auto profile = with_areas("ideal", {circle({0, 0}, 1, {{}, 3, 0})});
   profile.network = delay_distribution::uniform(10ms, 20ms);
-  const auto near = delays(profile, point{0, 0});
-  const auto far = delays(profile, point{9, 0});
+  const auto near = delays_at(profile, point{0, 0});
+  const auto far = delays_at(profile, point{9, 0});
   for (std::size_t n = 0; n < far.size(); ++n)
     CHECK(to_seconds(*near[n]) == doctest::Approx(3 * to_seconds(*far[n])));
 }
@@ -79,8 +79,8 @@ TEST_CASE("a factor stretches the network's delay, not the time on the air") {
 TEST_CASE("what is lost elsewhere is lost in an area too, and more") {
   auto profile = with_areas("ideal", {circle({0, 0}, 1, {{}, 1, 0.5})});
   profile.loss = 0.2;
-  const auto near = delays(profile, point{0, 0}, 4000);
-  const auto far = delays(profile, point{9, 0}, 4000);
+  const auto near = delays_at(profile, point{0, 0}, 4000);
+  const auto far = delays_at(profile, point{9, 0}, 4000);
   double lost_near = 0;
   for (std::size_t n = 0; n < far.size(); ++n) {
     CHECK((far[n].has_value() || !near[n].has_value()));

@@ -15,14 +15,14 @@ using namespace sofof::policies;
 
 namespace {
 
-constexpr std::string_view planning = "planning";
+constexpr std::string_view map_service = "planning";
 
 seen_quality result(double x_m, bool late = false, double latency_s = 0.02) {
-  return {1, planning, {x_m, 0}, late ? 0.08 : latency_s, late, false};
+  return {1, map_service, {x_m, 0}, late ? 0.08 : latency_s, late, false};
 }
 
 seen_quality offer(double x_m, bool late = false) {
-  return {1, planning, {x_m, 0}, late ? 0.08 : 0.02, late, true};
+  return {1, map_service, {x_m, 0}, late ? 0.08 : 0.02, late, true};
 }
 
 /// A vehicle that learns for itself, in cells of 10 m.
@@ -31,7 +31,7 @@ struct learning_vehicle {
   learned_forecast forecast{map};
 
   double late(double x_m) const {
-    return forecast.look(1, planning, {x_m, 0}).late;
+    return forecast.look(1, map_service, {x_m, 0}).late;
   }
   void drive(double from_m, double to_m, double late_from_m = 1e9) {
     for (auto x_m = from_m; x_m < to_m; x_m += 0.5)
@@ -43,8 +43,8 @@ struct learning_vehicle {
 
 TEST_CASE("an empty map knows what was thought before") {
   const quality_map map{{.prior_visits = 2, .prior_late = 0.02}};
-  CHECK(map.late(planning, 1, {0, 0}) == doctest::Approx(0.02));
-  CHECK(map.at(planning, 1, {0, 0}) == cell_quality{});
+  CHECK(map.late(map_service, 1, {0, 0}) == doctest::Approx(0.02));
+  CHECK(map.at(map_service, 1, {0, 0}) == cell_quality{});
   CHECK(map.entries().empty());
 }
 
@@ -62,12 +62,12 @@ TEST_CASE("probabilities stay probabilities, whatever is learned") {
   quality_map map{{.memory = 5}};
   for (int k = 0; k < 2000; ++k) {
     const auto visits = random.between(0, 8);
-    map.add(planning, 1, {0, 0},
+    map.add(map_service, 1, {0, 0},
             {visits, random.between(0, visits), random.between(0, 1)});
-    const auto p = map.late(planning, 1, {0, 0});
+    const auto p = map.late(map_service, 1, {0, 0});
     CHECK(p >= 0);
     CHECK(p <= 1);
-    const auto known = map.at(planning, 1, {0, 0});
+    const auto known = map.at(map_service, 1, {0, 0});
     CHECK(known.visits <= 5 + 1e-9);
     CHECK(known.latency_s <= 1);
   }
@@ -79,11 +79,11 @@ TEST_CASE("more late results never make a place look better, nor more in time "
   for (int round = 0; round < 300; ++round) {
     quality_map map{{.memory = random.between(1, 30)}};
     for (int k = 0; k < 40; ++k) {
-      const auto before = map.late(planning, 1, {0, 0});
+      const auto before = map.late(map_service, 1, {0, 0});
       const auto weight = random.between(0.01, 1);
       const auto late = random.between(0, 1) < 0.5;
-      map.add(planning, 1, {0, 0}, {weight, late ? weight : 0, 0});
-      const auto after = map.late(planning, 1, {0, 0});
+      map.add(map_service, 1, {0, 0}, {weight, late ? weight : 0, 0});
+      const auto after = map.late(map_service, 1, {0, 0});
       CHECK((late ? after >= before - 1e-12 : after <= before + 1e-12));
     }
   }
@@ -91,23 +91,23 @@ TEST_CASE("more late results never make a place look better, nor more in time "
 
 TEST_CASE("services, providers and cells are known apart") {
   quality_map map;
-  map.add(planning, 1, {0, 0}, {1, 1, 0});
-  CHECK(map.late(planning, 1, {0, 0}) > 0.3);
+  map.add(map_service, 1, {0, 0}, {1, 1, 0});
+  CHECK(map.late(map_service, 1, {0, 0}) > 0.3);
   CHECK(map.late("climate", 1, {0, 0}) < 0.05);
-  CHECK(map.late(planning, 2, {0, 0}) < 0.05);
-  CHECK(map.late(planning, 1, {1, 0}) < 0.05);
+  CHECK(map.late(map_service, 2, {0, 0}) < 0.05);
+  CHECK(map.late(map_service, 1, {1, 0}) < 0.05);
 }
 
 TEST_CASE("two maps make one of what both know") {
   quality_map one, other;
-  one.add(planning, 1, {0, 0}, {2, 1, 0.02});
-  other.add(planning, 1, {0, 0}, {2, 0, 0.04});
-  other.add(planning, 1, {7, -3}, {1, 1, 0});
+  one.add(map_service, 1, {0, 0}, {2, 1, 0.02});
+  other.add(map_service, 1, {0, 0}, {2, 0, 0.04});
+  other.add(map_service, 1, {7, -3}, {1, 1, 0});
   one.add(other);
-  CHECK(one.at(planning, 1, {0, 0}).visits == 4);
-  CHECK(one.at(planning, 1, {0, 0}).late == 1);
-  CHECK(one.at(planning, 1, {0, 0}).latency_s == doctest::Approx(0.03));
-  CHECK(one.at(planning, 1, {7, -3}).late == 1);
+  CHECK(one.at(map_service, 1, {0, 0}).visits == 4);
+  CHECK(one.at(map_service, 1, {0, 0}).late == 1);
+  CHECK(one.at(map_service, 1, {0, 0}).latency_s == doctest::Approx(0.03));
+  CHECK(one.at(map_service, 1, {7, -3}).late == 1);
   CHECK(one.entries().size() == 2);
   CHECK(one.entries()[1].at == point{75, -25});
 }
@@ -123,12 +123,12 @@ TEST_CASE_FIXTURE(learning_vehicle,
 TEST_CASE_FIXTURE(learning_vehicle,
                   "a visit counts once, however many results it has") {
   drive(20, 25, 20); // all of them late
-  CHECK(map->at(planning, 1, {2, 0}).visits == 1);
-  CHECK(map->at(planning, 1, {2, 0}).late == 1);
+  CHECK(map->at(map_service, 1, {2, 0}).visits == 1);
+  CHECK(map->at(map_service, 1, {2, 0}).late == 1);
   drive(30, 40);
   drive(40, 41);
-  CHECK(map->at(planning, 1, {3, 0}).visits == 1);
-  CHECK(map->at(planning, 1, {3, 0}).latency_s == doctest::Approx(0.02));
+  CHECK(map->at(map_service, 1, {3, 0}).visits == 1);
+  CHECK(map->at(map_service, 1, {3, 0}).latency_s == doctest::Approx(0.02));
 }
 
 TEST_CASE_FIXTURE(learning_vehicle, "a place becomes good again by results "
@@ -149,18 +149,18 @@ TEST_CASE_FIXTURE(learning_vehicle,
   forecast.learn(offer(5));
   forecast.learn(offer(15, true));
   forecast.learn(offer(25));
-  CHECK(map->at(planning, 1, {0, 0}) == cell_quality{0.2, 0, 0.02});
-  CHECK(map->at(planning, 1, {1, 0}).late == doctest::Approx(0.2));
+  CHECK(map->at(map_service, 1, {0, 0}) == cell_quality{0.2, 0, 0.02});
+  CHECK(map->at(map_service, 1, {1, 0}).late == doctest::Approx(0.2));
   forecast.learn(offer(15, true));
   forecast.learn(result(15, true)); // a result makes up for the rest
-  CHECK(map->at(planning, 1, {1, 0}).late == doctest::Approx(1.2));
+  CHECK(map->at(map_service, 1, {1, 0}).late == doctest::Approx(1.2));
 }
 
 TEST_CASE_FIXTURE(learning_vehicle,
                   "a result that never comes is late, and has no latency") {
   const auto never = std::numeric_limits<double>::infinity();
-  forecast.learn({1, planning, {5, 0}, never, true, false});
-  CHECK(map->at(planning, 1, {0, 0}) == cell_quality{1, 1, 0});
+  forecast.learn({1, map_service, {5, 0}, never, true, false});
+  CHECK(map->at(map_service, 1, {0, 0}) == cell_quality{1, 1, 0});
 }
 
 TEST_CASE_FIXTURE(learning_vehicle,
@@ -190,15 +190,15 @@ TEST_CASE_FIXTURE(learning_vehicle, "a forecast follows the path, at the "
   std::vector<point> path;
   for (int k = 0; k <= 100; ++k)
     path.push_back({5.0 * k, 0});
-  const auto at_10 = forecast_along(forecast, 1, planning, path, 10);
+  const auto at_10 = forecast_along(forecast, 1, map_service, path, 10);
   REQUIRE(at_10.size() == 21);
   CHECK(at_10.front().in_s == 0);
   CHECK(at_10.back().in_s == doctest::Approx(10));
   CHECK(late_within(at_10, 5.9) < 0.05);
   CHECK(late_within(at_10, 6) > 0.3);
   // Who stands may start.
-  const auto standing = forecast_along(forecast, 1, planning, path, 0);
+  const auto standing = forecast_along(forecast, 1, map_service, path, 0);
   CHECK(standing.size() == 7);
-  CHECK(forecast_along(forecast, 1, planning, {}, 10).empty());
+  CHECK(forecast_along(forecast, 1, map_service, {}, 10).empty());
   CHECK(late_within({}, 10) == 0);
 }
