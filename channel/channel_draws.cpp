@@ -118,11 +118,19 @@ duration channel_draws::airtime(const message_id& m, std::size_t octets) const {
   return from_seconds(usual * share + bits);
 }
 
-bool channel_draws::lost(const message_id& m, bool fading) const {
+bool channel_draws::lost(const message_id& m, bool fading, double more) const {
   const auto& burst = profile_->burst_loss;
-  const auto arrives =
-      (1 - profile_->loss) * (1 - (fading ? burst.loss_bad : burst.loss_good));
+  const auto arrives = (1 - profile_->loss)
+                       * (1 - (fading ? burst.loss_bad : burst.loss_good))
+                       * (1 - more);
   return arrives < 1 && of(m).uniform(m.number, loss_lane) >= arrives;
+}
+
+place_quality
+channel_draws::quality_at(const std::optional<point>& vehicle) const {
+  if (!vehicle || profile_->areas.empty())
+    return {};
+  return channel::quality_at(profile_->areas, *vehicle);
 }
 
 outage_process channel_draws::stalls() const {

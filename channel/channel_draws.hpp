@@ -64,7 +64,12 @@ public:
   duration airtime(const message_id& m, std::size_t octets) const;
 
   /// @param fading  Whether the connection is in its bad state.
-  bool lost(const message_id& m, bool fading) const;
+  /// @param more    Of where the vehicle is, besides: a probability in [0, 1].
+  bool lost(const message_id& m, bool fading, double more = 0) const;
+
+  /// @param vehicle  Where it is, m; nullopt: nobody knows.
+  /// @returns what the areas of the channel make of that place.
+  place_quality quality_at(const std::optional<point>& vehicle) const;
 
   /// Stalls of this vehicle, for both directions and all providers of a radio.
   /// @throws std::invalid_argument  when they leave no time in between.

@@ -6,6 +6,7 @@
 #include "base/time.hpp"
 #include "channel/core_wait.hpp"
 #include "channel/delay_distribution.hpp"
+#include "channel/network_area.hpp"
 #include "channel/trace.hpp"
 
 #include <array>
@@ -159,6 +160,7 @@ struct channel_profile {
   spike_options spikes;
   disorder_options disorder;
   std::vector<outage_options> outages; ///< `outage` in files.
+  std::vector<network_area> areas;     ///< `area` in files.
 
   /// Replays `trace`: a result takes the measured round trip, messages to the
   /// provider take no time, so that the loop takes what was measured.
@@ -186,6 +188,7 @@ struct channel_profile {
     s.table("disorder",
             [this](option_visitor& t) { disorder.visit_options(t); });
     visit_list(s, "outage", outages);
+    visit_list(s, "area", areas);
   }
 };
 

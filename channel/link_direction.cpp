@@ -13,7 +13,8 @@ link_direction::link_direction(channel_draws draws, direction to,
       stalls_{draws_.stalls()}, fades_{draws_.fades()} {}
 
 passage link_direction::carry(time_point sent, message_class kind,
-                              std::uint64_t number, std::size_t octets) {
+                              std::uint64_t number, std::size_t octets,
+                              const std::optional<point>& vehicle) {
   const message_id m{direction_, kind, number};
   const auto airtime = draws_.airtime(m, octets);
   const auto queues = cell_ && airtime > duration{};
@@ -22,13 +23,15 @@ passage link_direction::carry(time_point sent, message_class kind,
   const auto fades = fades_.at(sent).has_value();
   if (draws_.is_out(direction_, sent - start_))
     return {std::nullopt, disturbance::outage};
-  if (draws_.lost(m, fades))
+  const auto here = draws_.quality_at(vehicle);
+  if (draws_.lost(m, fades, here.loss))
     return {std::nullopt, disturbance::loss};
   const auto leaves = stall ? std::max(on_air, stall->end) : on_air;
   const auto late = draws_.overtaken_by(m);
-  const auto delay = late
-                     + (stall ? draws_.burst_delay(direction_, stall->number)
-                              : draws_.network_delay(m, sent));
+  const auto delay =
+      late
+      + here.slowed(stall ? draws_.burst_delay(direction_, stall->number)
+                          : draws_.network_delay(m, sent));
   auto arrives = leaves + delay;
   const auto is_overtaken = late > duration{};
   if (kind != message_class::digest && !is_overtaken) // else none is overtaken

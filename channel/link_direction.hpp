@@ -55,11 +55,13 @@ public:
   /// @param number  Number of the draw: the cycle of a result, a running
   ///                number for everything else (streams of their own).
   /// @param octets  What the message takes on the air.
+  /// @param vehicle  Where the vehicle is, m, east-north; nullopt: in no area.
   /// @returns among others when it arrives: never before an earlier message,
   /// but for digests, which neither wait nor are waited for, and for messages
   /// that disorder makes others overtake.
   passage carry(time_point sent, message_class kind, std::uint64_t number,
-                std::size_t octets = usual_octets);
+                std::size_t octets = usual_octets,
+                const std::optional<point>& vehicle = std::nullopt);
 
   /// @returns when it arrives; nullopt when it is lost.
   std::optional<time_point> arrival(time_point sent, message_class kind,

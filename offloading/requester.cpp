@@ -106,6 +106,7 @@ void requester::expire(const request_timeout& x, time_point now) {
 void requester::expire(const start_timeout& x, time_point now) {
   const auto found = find(x.session);
   if (found && found.session->at == phase::starting) {
+    learn_missed(*found.service, x.session.provider);
     observe_missed(*found.service, x.session.provider, now);
     end(*found.service, x.session.provider,
         {messages::end_reason::no_data,
@@ -243,9 +244,11 @@ void requester::learn(const messages::service_offer& offer, time_point now) {
   if (!offer.created || *offer.created > now)
     return;
   for (auto& service : services_)
-    if (!service.find(offer.provider) || service.is_standby(offer.provider))
-      service.link_of(offer.provider)
-          .answered(*offer.created - service.computing(offer), now);
+    if (!service.find(offer.provider) || service.is_standby(offer.provider)) {
+      const auto created = *offer.created - service.computing(offer);
+      service.link_of(offer.provider).answered(created, now);
+      learn_place(service, offer.provider, now - created, true);
+    }
 }
 
 // For all services: they come from one computer, under one key.
@@ -327,8 +330,10 @@ requester::decide(service_state& service,
   const auto chain = setup_.policy->needs_chain()
                          ? chain_view(now)
                          : std::vector<policies::chain_link>{};
-  const auto decision =
-      setup_.policy->decide(context_of(service, providers, chain, path, now));
+  const auto ahead = forecasts(service, providers, path);
+  auto context = context_of(service, providers, chain, path, now);
+  context.forecasts = ahead;
+  const auto decision = setup_.policy->decide(context);
   if (std::holds_alternative<policies::come_home>(decision.what)) {
     leave(service, {messages::end_reason::released, decision.why.text()}, now,
           [](provider_id) { return true; });

@@ -36,6 +36,9 @@ struct requester_setup {
       [](const messages::ego_state&) { return std::vector<point>{}; };
   /// What is to come, where a run can tell; else null.
   std::shared_ptr<const policies::channel_oracle> future{};
+  /// What results are like by place, as far as that is known; else null. Told
+  /// of all that comes; from the requester's thread alone.
+  std::shared_ptr<policies::quality_forecast> forecast{};
   bool trace = false; ///< Record each step.
 };
 
@@ -202,6 +205,13 @@ private:
              std::span<const policies::provider_view> providers,
              std::span<const policies::chain_link> chain,
              std::span<const point> path, time_point now) const;
+  std::vector<policies::provider_forecast>
+  forecasts(const service_state& service,
+            std::span<const policies::provider_view> providers,
+            std::span<const point> path) const;
+  void learn_place(const service_state& service, provider_id provider,
+                   duration latency, bool is_offer);
+  void learn_missed(const service_state& service, provider_id provider);
   std::vector<candidate> candidates(service_state& service, provider_id asked,
                                     std::span<const point> path,
                                     time_point now);

@@ -150,6 +150,7 @@ void requester::on_result(const messages::service_result& result,
     link.answered(result.created, now);
   else
     link.arrived(result.created, now);
+  learn_place(service, provider, latency, false);
   setup_.policy->observe(policies::cycle_outcome{
       .at = now,
       .service = service.service.name.view(),
@@ -169,7 +170,10 @@ void requester::look_ahead(service_state& service, time_point now) {
     return;
   const auto path = setup_.path_ahead(ego_);
   const auto known = service.views(providers_, std::nullopt, now);
-  if (setup_.policy->foresees_home(context_of(service, known, {}, path, now)))
+  const auto ahead = forecasts(service, known, path);
+  auto context = context_of(service, known, {}, path, now);
+  context.forecasts = ahead;
+  if (setup_.policy->foresees_home(context))
     port_.foresee_home(service.service.name);
 }
 
@@ -314,6 +318,9 @@ void requester::on_violation(const messages::qos_violation& violation,
   if (is_fault && violation.breach != messages::qos_breach::implausible)
     log(messages::event_type::violation, session, violation.why, now);
   auto& service = *found.service;
+  if (violation.breach == messages::qos_breach::gap
+      || violation.breach == messages::qos_breach::input_age)
+    learn_missed(service, session.provider);
   if (is_fault && violation.breach != messages::qos_breach::latency)
     observe_missed(service, session.provider, now);
   if (!violation.others_hold && found.session->at == phase::remote)

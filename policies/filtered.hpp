@@ -39,6 +39,7 @@ public:
   }
   double epoch_s() const override { return choice_->epoch_s(); }
   bool needs_scene() const override { return choice_->needs_scene(); }
+  bool needs_forecast() const override { return choice_->needs_forecast(); }
   bool needs_chain() const override { return choice_->needs_chain(); }
   std::string snapshot() const override { return choice_->snapshot(); }
   std::optional<std::string> restore(std::string_view text) override {

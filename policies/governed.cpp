@@ -48,6 +48,11 @@ bool governed_lodm::needs_scene() const {
          || std::ranges::any_of(governors_, &governor::needs_scene);
 }
 
+bool governed_lodm::needs_forecast() const {
+  return whole_->needs_forecast()
+         || std::ranges::any_of(governors_, &governor::needs_forecast);
+}
+
 bool governed_lodm::foresees_home(const local_context& context) const {
   return whole_->foresees_home(context)
          || std::ranges::any_of(governors_, [&](const auto& x) {

@@ -27,6 +27,7 @@ public:
   void observe(const episode_outcome& outcome) override;
   double epoch_s() const override;
   bool needs_scene() const override;
+  bool needs_forecast() const override;
   bool needs_chain() const override { return whole_->needs_chain(); }
   bool foresees_home(const local_context& context) const override;
   std::string snapshot() const override { return whole_->snapshot(); }

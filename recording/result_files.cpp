@@ -58,11 +58,17 @@ result_files::result_files(std::filesystem::path folder, const run_info& run)
     write_file(folder_ / name, text);
   if (!run.trace_text.empty())
     write_file(folder_ / "trace.txt", run.trace_text);
+  if (!run.forecast_csv.empty())
+    write_file(folder_ / "forecast.csv", run.forecast_csv);
   write_file(folder_ / "config.toml", run.config_toml);
 }
 
 void result_files::on_record(const messages::record& x) {
   std::visit([this](const auto& which) { write(which); }, x);
+}
+
+void result_files::write_quality(std::string_view csv) const {
+  write_file(folder_ / "quality.csv", csv);
 }
 
 void result_files::write(const messages::event_record& x) {

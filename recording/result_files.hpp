@@ -45,6 +45,9 @@ public:
   /// Brings all files up to date.
   void flush();
 
+  /// Writes quality.csv.
+  void write_quality(std::string_view csv) const;
+
   /// Closes all files and writes those of the end, once.
   void finish(const metrics& all, const run_info& run, const run_end& end,
               const figures_of_clock& clock);

@@ -105,6 +105,8 @@ run_end results::finish(time_point end, double wall_s, bool interrupted,
   for (const auto& response : rest)
     keep(response);
   metrics_.finish(end);
+  if (files_ && !quality_csv_.empty())
+    files_->write_quality(quality_csv_);
   if (files_)
     files_->finish(metrics_, run_, outcome, of_clock_);
   return outcome;

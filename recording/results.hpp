@@ -47,6 +47,9 @@ public:
   /// What providers and cells had to do, for load.csv and octets.csv.
   void add_load(load_table x) { metrics_.add(std::move(x)); }
 
+  /// What vehicles have learned of places, for quality.csv; empty: nothing.
+  void add_quality(std::string csv) { quality_csv_ = std::move(csv); }
+
   const metrics& so_far() const { return metrics_; }
 
   /// Brings all files up to date; to be called now and then, so that a killed
@@ -72,6 +75,7 @@ private:
   metrics metrics_;
   response_ledger ledger_;
   figures_of_clock of_clock_;
+  std::string quality_csv_;
   std::optional<result_files> files_;
 };
 

@@ -31,7 +31,8 @@ constexpr std::string_view files_of_a_run[] = {
     "octets.csv",        "octets.csv.tmp",   "disturbed.csv",
     "disturbed.csv.tmp", "claims.csv",       "protocol_trace.csv",
     "scene.csv",         "responses.csv",    "energy.csv",
-    "energy.csv.tmp",    "plans.csv"};
+    "energy.csv.tmp",    "plans.csv",        "quality.csv",
+    "quality.csv.tmp",   "forecast.csv",     "forecast.csv.tmp"};
 
 bool is_provider_map(std::string_view name) {
   if (!name.starts_with(provider_map_prefix))

@@ -67,6 +67,8 @@ struct run_info {
   /// Maps of providers that it names, by their names in the folder.
   std::map<std::string, std::string> provider_maps;
   std::string trace_text; ///< The trace that it names; empty for none.
+  /// What was learned before, that it names; empty for none.
+  std::string forecast_csv;
   std::int64_t seed = 0;
   std::size_t vehicles = 0;
   std::string provider; ///< The one that is all that runs here; often empty.

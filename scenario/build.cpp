@@ -102,6 +102,14 @@ void share_cores(std::vector<actors::client_service>& services,
   }
 }
 
+/// @returns whether any channel depends on where a vehicle is.
+bool has_areas(const scenario_definition& s) {
+  for (std::size_t k = 0; k < s.providers.size(); ++k)
+    if (!s.channel_to(k)->areas.empty())
+      return true;
+  return false;
+}
+
 std::vector<oriented_box> obstacles(const scenario_definition& s) {
   std::vector<oriented_box> boxes;
   for (const auto& o : s.obstacles)
@@ -174,6 +182,7 @@ public:
                   [&](const auto& v) { return !here_.drives(v.station); });
     add_road(placed);
     add_antennas();
+    world_.forecasts = std::make_shared<place_forecasts>(s_);
     const auto future = virtual_time_ ? foresee(s_) : nullptr;
     for (const auto& v : placed)
       add_vehicle(v, future ? future(v.station) : nullptr);
@@ -320,7 +329,9 @@ private:
       setup.v2x = s_.v2x;
       setup.air = world_.air;
       setup.antennas = antennas_;
-      setup.connect = connect(v.station, !fleet.fails_at);
+      if (has_areas(s_))
+        setup.place = std::make_shared<channel::vehicle_place>();
+      setup.connect = connect(v.station, !fleet.fails_at, setup.place);
     }
     setup.road = world_.road;
     setup.recorder = world_.recorder;
@@ -348,12 +359,14 @@ private:
   }
 
   /// @param lives  Whether the vehicle's computer does to the end.
-  std::function<messages::link_actor(std::size_t)> connect(station_id station,
-                                                           bool lives) {
-    return [here = connections_, station, lives,
+  std::function<messages::link_actor(std::size_t)>
+  connect(station_id station, bool lives,
+          std::shared_ptr<const channel::vehicle_place> place) {
+    return [here = connections_, station, lives, place = std::move(place),
             far = connect_remotes(station, lives)](std::size_t to) {
       const auto count = here->cells().size();
-      return to < count ? here->connect(station, to, lives) : far[to - count];
+      return to < count ? here->connect(station, to, lives, place)
+                        : far[to - count];
     };
   }
 
@@ -397,6 +410,7 @@ private:
             virtual_time = virtual_time_, computer = s_.fleets[v.fleet].compute,
             fails_at = s_.fleets[v.fleet].fails_at, start = start_,
             host = s_.network.channel->vehicle_host, future = std::move(future),
+            forecast = world_.forecasts->for_vehicle(),
             margins = s_.record.margins,
             trace = s_.record.trace](const messages::vehicle_actor& vehicle) {
       const auto path_ahead = [way](const messages::ego_state& ego) {
@@ -415,6 +429,7 @@ private:
                                                 .computer = computer,
                                                 .host = host,
                                                 .future = future,
+                                                .forecast = forecast,
                                                 .record_margins = margins,
                                                 .trace = trace});
       if (fails_at)

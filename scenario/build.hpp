@@ -6,6 +6,7 @@
 #include "channel/octet_ledger.hpp"
 #include "messages/etsi/its_time.hpp"
 #include "messages/type_ids.hpp"
+#include "scenario/forecasts.hpp"
 #include "scenario/runtime.hpp"
 #include "scenario/scenario.hpp"
 
@@ -63,6 +64,7 @@ struct world_actors {
   caf::actor supervisor;
   bool has_peers = false;           ///< On other hosts.
   std::vector<provider_load> loads; ///< Of the providers that live here.
+  std::shared_ptr<place_forecasts> forecasts; ///< Of the vehicles.
 };
 
 /// Spawns the actors of a scenario, or of a part of it. Each provider gets the

@@ -61,6 +61,7 @@ public:
   }
   double epoch_s() const override { return what_->epoch_s(); }
   bool needs_scene() const override { return what_->needs_scene(); }
+  bool needs_forecast() const override { return what_->needs_forecast(); }
   bool needs_chain() const override { return what_->needs_chain(); }
   std::string snapshot() const override { return what_->snapshot(); }
   std::optional<std::string> restore(std::string_view text) override {

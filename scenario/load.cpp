@@ -5,6 +5,7 @@
 #include "base/options/toml_file.hpp"
 #include "scenario/checks.hpp"
 #include "scenario/map_file.hpp"
+#include "scenario/quality_file.hpp"
 
 #include <fmt/format.h>
 
@@ -111,6 +112,15 @@ void load_trace(scenario_definition& all, const fs::path& folder,
   all.network.channel = complete(all, std::move(filled));
 }
 
+void load_forecast(scenario_definition& all, const fs::path& folder,
+                   const toml_file& source) {
+  auto& forecast = all.policies.forecast;
+  const auto file = folder / forecast.file;
+  forecast.text = read_named(file, "policies.forecast.file", source);
+  all.read_from.push_back(file);
+  forecast.places = read_quality(file, all);
+}
+
 /// Gives everybody a channel, and computers as they fit to it.
 void complete_networks(scenario_definition& all) {
   const auto share = [&all](network_options& network) {
@@ -158,6 +168,8 @@ scenario_definition parse_scenario(std::string_view text, const fs::path& file,
   const auto folder = file.parent_path();
   if (!all.network.trace.empty())
     load_trace(all, folder, source);
+  if (!all.policies.forecast.file.empty())
+    load_forecast(all, folder, source);
   load_world(all, folder, source);
   load_provider_maps(all, folder, source);
   check_whole(all, source);

@@ -65,6 +65,7 @@ recording::run_info describe(const scenario_definition& s,
     if (const auto& p = s.providers[k]; !p.map_text.empty())
       info.provider_maps[map_copy_of(k)] = p.map_text;
   info.trace_text = s.trace_text;
+  info.forecast_csv = s.policies.forecast.text;
   info.seed = s.seed;
   if (const auto* planning = planning_service(s))
     info.headline_kind = planning->name();
@@ -250,6 +251,7 @@ struct played {
   time_point ended;
   std::optional<recording::cpu_table> computed;
   std::vector<std::pair<std::string, double>> decisions; ///< For timing.csv.
+  std::string learned; ///< quality.csv; empty: none.
   recording::load_table load;
 };
 
@@ -335,6 +337,7 @@ played play(const scenario_definition& s, const process_share& here,
   dismiss(actors, time);
   keep_disturbed(actors.loads, time_point::max(), *keeper);
   run.load = table_of(actors.loads, run.ended);
+  run.learned = actors.forecasts->learned_csv();
   if (deciding)
     run.decisions = deciding->figures();
   return run;
@@ -348,6 +351,7 @@ run_outcome finish(const played& run, const recording::run_info& info,
     if (run.computed)
       r.add_cpu(*run.computed);
     r.add_load(run.load);
+    r.add_quality(run.learned);
     for (const auto& [name, value] : run.decisions)
       r.add_timing(name, value);
     return r.finish(run.ended, on.watch.elapsed_s(), is_cut,
@@ -387,6 +391,8 @@ std::string configuration_of(scenario_definition s) {
       p.map = map_copy_of(k);
   if (!s.trace_text.empty())
     s.network.trace = "trace.txt";
+  if (!s.policies.forecast.text.empty())
+    s.policies.forecast.file = "forecast.csv";
   return "# The effective configuration of this run; `sofof run` takes it.\n"
          + to_toml(std::move(s));
 }

@@ -172,6 +172,9 @@ void policy_options::visit_options(option_visitor& s) {
     visit_choice(t, codm, policies::make_codm, "CODM policy",
                  policies::codm_names(), right_place);
   });
+  if (s.has("forecast", forecast.source != "none"))
+    s.table("forecast",
+            [this](option_visitor& t) { forecast.visit_options(t); });
 }
 
 std::int64_t scenario_definition::vehicles() const {

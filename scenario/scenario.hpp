@@ -9,6 +9,7 @@
 #include "messages/v2x/v2x_options.hpp"
 #include "policies/api/context.hpp"
 #include "scenario/fleet_options.hpp"
+#include "scenario/forecast_options.hpp"
 #include "scenario/provider_options.hpp"
 #include "world/roads/street_grid.hpp"
 #include "world/roads/streets.hpp"
@@ -30,6 +31,7 @@ struct policy_options {
   /// Prototypes: each vehicle and each provider has a clone.
   std::shared_ptr<policies::local_policy> lodm;
   std::shared_ptr<policies::central_policy> codm;
+  forecast_options forecast; ///< That LODMs may go by.
 
   policy_options(); ///< The paper's: "location" for both.
   void visit_options(option_visitor& s);

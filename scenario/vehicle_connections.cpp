@@ -7,12 +7,13 @@
 #include <fmt/format.h>
 
 #include <cassert>
+#include <utility>
 
 namespace sofof::scenario {
 
-messages::link_actor vehicle_connections::connect(station_id station,
-                                                  std::size_t to,
-                                                  bool lives) const {
+messages::link_actor vehicle_connections::connect(
+    station_id station, std::size_t to, bool lives,
+    std::shared_ptr<const channel::vehicle_place> place) const {
   assert(to < cells_.size());
   const auto& at = cells_[to];
   const channel::channel_draws draws{at.channel, noise_, station, at.place,
@@ -23,7 +24,8 @@ messages::link_actor vehicle_connections::connect(station_id station,
        {{draws, channel::direction::down, at.cell_down}, at.octets_down},
        std::nullopt,
        station,
-       start_});
+       start_,
+       std::move(place)});
   if (supervisor_ && lives && !at.may_die())
     actors::watch(supervisor_, caf::actor_cast<caf::actor>(link),
                   fmt::format("a link of vehicle {}", station));

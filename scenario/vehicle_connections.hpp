@@ -6,6 +6,7 @@
 #include "channel/channel_profile.hpp"
 #include "channel/octet_ledger.hpp"
 #include "channel/shared_server_queue.hpp"
+#include "channel/vehicle_place.hpp"
 #include "scenario/provider_options.hpp"
 
 #include <caf/actor_system.hpp>
@@ -51,8 +52,10 @@ public:
 
   /// @param to     Number of the cell.
   /// @param lives  Whether the vehicle's computer does to the end.
-  messages::link_actor connect(station_id station, std::size_t to,
-                               bool lives) const;
+  /// @param place  Where the vehicle is; null: nobody tells.
+  messages::link_actor
+  connect(station_id station, std::size_t to, bool lives,
+          std::shared_ptr<const channel::vehicle_place> place = {}) const;
 
 private:
   caf::actor_system& sys_;

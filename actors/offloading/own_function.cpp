@@ -70,6 +70,7 @@ rules_of(requester_actor_setup vehicle,
           .noise = vehicle.noise,
           .path_ahead = std::move(vehicle.path_ahead),
           .future = std::move(vehicle.future),
+          .forecast = std::move(vehicle.forecast),
           .trace = vehicle.trace};
 }
 

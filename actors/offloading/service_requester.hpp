@@ -46,6 +46,8 @@ struct requester_actor_setup {
   channel::core_wait host{}; ///< What its own functions wait for a core.
   /// What is to come, where a run can tell; else null.
   std::shared_ptr<const policies::channel_oracle> future{};
+  /// What results are like by place; null: nobody tells.
+  std::shared_ptr<policies::quality_forecast> forecast{};
   bool record_margins = false; ///< Of results that are used.
   bool trace = false;          ///< Record each step.
 };

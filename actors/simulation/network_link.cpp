@@ -65,7 +65,9 @@ struct link_state {
              const Receiver& receiver, const Message& message, Ts&&... xs) {
     const auto sent = now(self);
     const auto octets = octets_on_air(message);
-    const auto through = on.air.carry(sent, kind, number, octets);
+    const auto through =
+        on.air.carry(sent, kind, number, octets,
+                     setup->place ? setup->place->last() : std::nullopt);
     const auto fate = through.arrives && setup->faults
                           ? setup->faults->of(carried++)
                           : channel::link_faults::fate{};

@@ -5,6 +5,7 @@
 #include "channel/link_direction.hpp"
 #include "channel/link_faults.hpp"
 #include "channel/octet_ledger.hpp"
+#include "channel/vehicle_place.hpp"
 #include "messages/type_ids.hpp"
 
 #include <caf/actor_system.hpp>
@@ -28,6 +29,8 @@ struct link_setup {
   std::optional<channel::link_faults> faults; ///< For tests.
   station_id station = 0;  ///< The vehicle, by which disturbances are counted.
   time_point run_begins{}; ///< Outages are counted from here.
+  /// Where the vehicle is; null: nobody tells, so that no area counts.
+  std::shared_ptr<const channel::vehicle_place> place{};
 };
 
 /// A proxy that looks like the far end to both sides: it delays and loses

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "actors/simulation/driven_car.hpp"
+#include "channel/vehicle_place.hpp"
 #include "messages/type_ids.hpp"
 #include "messages/v2x/georeference.hpp"
 #include "messages/v2x/v2x_options.hpp"
@@ -40,6 +41,8 @@ struct vehicle_setup {
   /// @returns the link to the provider of one of these, by its number. Asked
   /// for once, when the vehicle is in range for the first time.
   std::function<messages::link_actor(std::size_t)> connect;
+  /// Is told where the vehicle is whenever the road is; null: nobody asks.
+  std::shared_ptr<channel::vehicle_place> place;
   messages::air_actor air; ///< Null: other vehicles do not hear it.
   messages::road_actor road;
   messages::recorder_actor recorder;

@@ -25,6 +25,8 @@ void vehicle_links::ask_for_place(const driven_car& car) {
 }
 
 void vehicle_links::report(const driven_car& car) {
+  if (setup_.place)
+    setup_.place->tell(car.position());
   self_->send(setup_.road, car.report(), messages::vehicle_actor{self_});
   if (!agent_)
     return;

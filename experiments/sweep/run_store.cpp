@@ -77,6 +77,8 @@ std::string name_of_run(const scenario::scenario_definition& s,
   const auto configuration = scenario::configuration_of(s);
   std::vector<std::string_view> texts{program, configuration, s.map_text,
                                       s.trace_text};
+  if (!s.policies.forecast.text.empty())
+    texts.push_back(s.policies.forecast.text);
   for (const auto& p : s.providers)
     if (!p.map_text.empty())
       texts.push_back(p.map_text);

@@ -10,6 +10,7 @@
 #include "policies/api/gain.hpp"
 #include "policies/api/periodic_task.hpp"
 #include "policies/api/policy.hpp"
+#include "policies/api/quality_forecast.hpp"
 #include "world/roads/road_map.hpp"
 
 #include <algorithm>
@@ -111,6 +112,9 @@ struct local_context {
   /// Where it runs, in case a filter keeps that from `providers`:
   /// `where_it_runs`.
   const provider_view* here = nullptr;
+  /// What results will be like along the path, by provider; empty for a policy
+  /// that does not want it (`policy::needs_forecast`), or without a source.
+  std::span<const provider_forecast> forecasts{};
 };
 
 /// @returns what is known of where the service runs, whatever a filter says of

@@ -28,6 +28,9 @@ public:
   /// As `policy::needs_scene`.
   virtual bool needs_scene() const { return false; }
 
+  /// As `policy::needs_forecast`.
+  virtual bool needs_forecast() const { return false; }
+
   /// As `policy::foresees_home`.
   virtual bool foresees_home(const local_context&) const { return false; }
 

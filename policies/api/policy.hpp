@@ -78,6 +78,10 @@ public:
   /// together: `local_context::chain`.
   virtual bool needs_chain() const { return false; }
 
+  /// @returns whether it wants to be told what results will be like along the
+  /// way: `local_context::forecasts`.
+  virtual bool needs_forecast() const { return false; }
+
   /// In the vehicle: for a service that runs at a provider.
   /// @returns whether it may come home soon: where the way leads, or for what
   /// this policy would decide.

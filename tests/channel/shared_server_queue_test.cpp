@@ -18,7 +18,7 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr time_point at(duration t) {
+constexpr time_point job_at(duration t) {
   return time_point{t};
 }
 
@@ -26,30 +26,30 @@ constexpr time_point at(duration t) {
 
 TEST_CASE("a job that finds the worker idle is done after its own time") {
   shared_server_queue workers{1};
-  CHECK(workers.finish(at(10ms), 3ms) == at(13ms));
-  CHECK(workers.finish(at(20ms), 3ms) == at(23ms));
+  CHECK(workers.finish(job_at(10ms), 3ms) == job_at(13ms));
+  CHECK(workers.finish(job_at(20ms), 3ms) == job_at(23ms));
 }
 
 TEST_CASE("a job that finds the worker busy waits for it") {
   shared_server_queue workers{1};
-  workers.finish(at(0ms), 10ms);
-  CHECK(workers.finish(at(4ms), 1ms) == at(11ms));
-  CHECK(workers.finish(at(5ms), 1ms) == at(12ms));
+  workers.finish(job_at(0ms), 10ms);
+  CHECK(workers.finish(job_at(4ms), 1ms) == job_at(11ms));
+  CHECK(workers.finish(job_at(5ms), 1ms) == job_at(12ms));
 }
 
 TEST_CASE("the worker that is free first takes the job") {
   shared_server_queue workers{2};
-  CHECK(workers.finish(at(0ms), 10ms) == at(10ms));
-  CHECK(workers.finish(at(0ms), 4ms) == at(4ms));
-  CHECK(workers.finish(at(1ms), 2ms) == at(6ms));
-  CHECK(workers.finish(at(1ms), 9ms) == at(15ms));
-  CHECK(workers.finish(at(1ms), 0ms) == at(10ms));
+  CHECK(workers.finish(job_at(0ms), 10ms) == job_at(10ms));
+  CHECK(workers.finish(job_at(0ms), 4ms) == job_at(4ms));
+  CHECK(workers.finish(job_at(1ms), 2ms) == job_at(6ms));
+  CHECK(workers.finish(job_at(1ms), 9ms) == job_at(15ms));
+  CHECK(workers.finish(job_at(1ms), 0ms) == job_at(10ms));
 }
 
 TEST_CASE("a job from the past arrives with the last one") {
   shared_server_queue workers{2};
-  workers.finish(at(10ms), 0ms);
-  CHECK(workers.finish(at(2ms), 3ms) == at(13ms));
+  workers.finish(job_at(10ms), 0ms);
+  CHECK(workers.finish(job_at(2ms), 3ms) == job_at(13ms));
 }
 
 TEST_CASE("a queue without workers is refused") {
@@ -62,7 +62,7 @@ TEST_CASE("no work is lost between threads that share a worker") {
   constexpr auto threads = 4;
   constexpr auto jobs = 300'000;
   shared_server_queue worker{1};
-  worker.finish(at(0ms), 0ms);
+  worker.finish(job_at(0ms), 0ms);
   std::latch start{threads};
   {
     std::vector<std::jthread> pool;
@@ -70,10 +70,10 @@ TEST_CASE("no work is lost between threads that share a worker") {
       pool.emplace_back([&] {
         start.arrive_and_wait();
         for (auto j = 0; j < jobs; ++j)
-          worker.finish(at(0ms), 1us);
+          worker.finish(job_at(0ms), 1us);
       });
   }
-  CHECK(worker.finish(at(0ms), 0ms) == at(threads * jobs * 1us));
+  CHECK(worker.finish(job_at(0ms), 0ms) == job_at(threads * jobs * 1us));
 }
 
 TEST_CASE("random arrivals at one worker wait as queueing theory says") {

@@ -360,3 +360,108 @@ TEST_CASE_FIXTURE(roadside, "a service that knows nothing of the scene goes "
   seen.safe_response = 1000h;
   CHECK(!goes_to(ask(*lodm)));
 }
+
+namespace {
+
+/// A vehicle that knows at which place ahead results are late.
+struct warned_vehicle : roadside {
+  std::vector<provider_forecast> ahead;
+  std::unique_ptr<local_policy> gated = always_with("predictive_gate");
+
+  /// @param in_s  Until the vehicle is there.
+  void expect(provider_id provider, double in_s, double late) {
+    ahead.push_back({provider, {{0, 0.01, 0.02}, {in_s, late, 0.08}}});
+    seen.forecasts = ahead;
+  }
+};
+
+} // namespace
+
+TEST_CASE("a gate wants a forecast by place, unless it looks at none") {
+  CHECK(always_with("predictive_gate")->needs_forecast());
+  CHECK(!always_with("hysteresis")->needs_forecast());
+  CHECK(!always_with("predictive_gate",
+                     {.times = {{"govern.0.leave_before", 0s},
+                                {"govern.0.begin_before", 0s}}})
+             ->needs_forecast());
+}
+
+TEST_CASE_FIXTURE(warned_vehicle,
+                  "a service comes home before a bad place, not long before") {
+  add(1);
+  CHECK(goes_to(ask(*gated)) == 1);
+  runs_at(1);
+  expect(1, 1.5, 0.9);
+  CHECK(!comes_home(ask(*gated)));
+  ahead[0].along[1].in_s = 1;
+  CHECK(comes_home(ask(*gated)));
+  CHECK(ask(*gated).why == "late results are likely ahead");
+  ahead[0].along[1].late = 0.2; // not above
+  CHECK(!comes_home(ask(*gated)));
+}
+
+TEST_CASE_FIXTURE(warned_vehicle,
+                  "it comes home also when nothing is known of the link yet") {
+  add(1);
+  CHECK(goes_to(ask(*gated)) == 1);
+  runs_at(1);
+  providers[0].link = {};
+  CHECK(!comes_home(ask(*gated)));
+  expect(1, 0.5, 0.9);
+  CHECK(comes_home(ask(*gated)));
+}
+
+TEST_CASE_FIXTURE(
+    warned_vehicle,
+    "nobody is asked with a bad place nearer than three seconds") {
+  add(1);
+  expect(1, 2.9, 0.9);
+  CHECK(!goes_to(ask(*gated)));
+  CHECK(ask(*gated).why == "late results are likely ahead");
+  ahead[0].along[1].in_s = 3.1;
+  CHECK(goes_to(ask(*gated)) == 1);
+}
+
+TEST_CASE_FIXTURE(warned_vehicle,
+                  "before a bad place a service goes on to a provider that is "
+                  "fine there") {
+  const auto nearest = make_lodm_with(
+      "nearest", {.texts = {{"govern.0.name", "predictive_gate"}},
+                  .lengths = {{"govern", 1}}});
+  add(1, {50, 0});
+  add(2, {10, 0});
+  runs_at(1);
+  expect(1, 0.5, 0.9);
+  CHECK(goes_to(ask(*nearest)) == 2);
+}
+
+TEST_CASE_FIXTURE(warned_vehicle, "whoever does not look at places goes on") {
+  const auto blind = always_with("predictive_gate",
+                                 {.times = {{"govern.0.leave_before", 0s},
+                                            {"govern.0.begin_before", 0s}}});
+  add(1);
+  CHECK(goes_to(ask(*blind)) == 1);
+  runs_at(1);
+  expect(1, 0.5, 0.9);
+  CHECK(!comes_home(ask(*blind)));
+}
+
+TEST_CASE_FIXTURE(warned_vehicle,
+                  "an own function is told to warm up before a bad place") {
+  add(1);
+  runs_at(1);
+  seen.providers = providers;
+  expect(1, 2.9, 0.9);
+  CHECK(gated->foresees_home(seen));
+  ahead[0].along[1].in_s = 3.1;
+  CHECK(!gated->foresees_home(seen));
+}
+
+TEST_CASE("forecasts reach ten seconds, so that no gate looks farther") {
+  option_list options;
+  options.lengths = {{"govern", 1}};
+  options.texts = {{"govern.0.name", "predictive_gate"}};
+  options.times = {{"govern.0.leave_before", 10'001ms}};
+  make_lodm("always")->visit_options(options);
+  CHECK(options.refused == decltype(options.refused){"govern.0.leave_before"});
+}

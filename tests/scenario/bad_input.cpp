@@ -81,6 +81,25 @@ TEST_CASE("what says nothing of a network or a failure is refused") {
       {"[network]",
        "[network]\n[[network.outage]]\nfrom = \"2s\"\nto = @\"1s\"",
        {"later than from"}},
+      {"[network]", "[network]\n@[[network.area]]\nloss = 0.5", {"area_m"}},
+      {"[network]",
+       "[network]\n@[[network.area]]\nposition_m = [0, 0]",
+       {"changes nothing"}},
+      {"[network]",
+       "[network]\n[[network.area]]\nposition_m = [0, 0]\nloss = @1.5",
+       {"loss", "from 0 to 1"}},
+      {"[network]",
+       "[network]\n[[network.area]]\nposition_m = [0, 0]\nloss = 0.5\n"
+       "radius_m = @-3",
+       {"radius_m", "from 0.1"}},
+      {"[network]",
+       "[network]\n[[network.area]]\nloss = 0.5\n"
+       "area_m = @[[0, 0], [9, 9], [9, 0], [0, 9]]",
+       {"area_m"}},
+      {"[network]",
+       "[network]\n[[network.area]]\narea_m = [[0, 0], [9, 0], [9, 9]]\n"
+       "radius_m = @3",
+       {"has no effect beside area_m"}},
       {"[network]",
        "network = { profile = @\"trace\", trace = \"delays.csv\" }\n[network]",
        {"only [network] can"}},
@@ -88,6 +107,30 @@ TEST_CASE("what says nothing of a network or a failure is refused") {
       {"[network]",
        "fails_at = \"9s\"\nreturns_at = @\"9s\"\n[network]",
        {"later than fails_at"}},
+  });
+}
+
+TEST_CASE("a forecast that has nothing to go by is refused") {
+  check_scenario_mistakes({
+      {"[record]",
+       "[policies.forecast]\nsource = @\"learnt\"\n[record]",
+       {"did you mean \"learned\"?"}},
+      {"[record]",
+       "[policies.forecast]\nsource = @\"file\"\n[record]",
+       {"needs a file"}},
+      {"[record]",
+       "[policies.forecast]\nsource = \"oracle\"\nshared = @true\n[record]",
+       {"has no effect unless"}},
+      {"[record]",
+       "[policies.forecast]\nsource = \"oracle\"\nfile = @\"q.csv\"\n"
+       "[record]",
+       {"has no effect unless"}},
+      {"[record]",
+       "[policies.forecast]\nsource = \"file\"\nfile = @\"no.csv\"\n[record]",
+       {"no.csv", "cannot be read"}},
+      {"[record]",
+       "[policies.forecast]\nsource = \"learned\"\ncell_m = @0\n[record]",
+       {"from 1 to 1000"}},
   });
 }
 

@@ -1,4 +1,4 @@
-// The scenarios of the benchmark: there are eight, and nobody is unsafe in
+// The scenarios of the benchmark: there are nine, and nobody is unsafe in
 // them.
 #include "scenario/load.hpp"
 #include "tests/scenario/whole_run.hpp"
@@ -35,11 +35,11 @@ scenario_definition load_bench(const std::string& name,
 
 } // namespace
 
-TEST_CASE("the benchmark has its eight scenarios, each under its name") {
+TEST_CASE("the benchmark has its nine scenarios, each under its name") {
   CHECK(names()
-        == std::set<std::string>{"corridor_3sp", "mixed_fleet", "rush_hour",
-                                 "single_intersection", "sp_crash", "spiky_5g",
-                                 "tunnel", "two_operators"});
+        == std::set<std::string>{"corridor_3sp", "coverage_hole", "mixed_fleet",
+                                 "rush_hour", "single_intersection", "sp_crash",
+                                 "spiky_5g", "tunnel", "two_operators"});
   for (const auto& name : names()) {
     const auto s = load_bench(name);
     CHECK(s.name == name);

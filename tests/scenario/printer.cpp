@@ -9,6 +9,7 @@
 #include <chrono>
 #include <limits>
 #include <sstream>
+#include <vector>
 
 using namespace sofof;
 using namespace sofof::scenario;
@@ -59,6 +60,17 @@ everything unusual() {
           .at = {-0.0, 1e-9},
           .line = {{1, 2}, {3.5, -4e6}},
           .parts = {1, 2, 3}};
+}
+
+/// A circle and a polygon.
+std::vector<channel::network_area> areas() {
+  std::vector<channel::network_area> all(2);
+  all[0].name = "hole";
+  all[0].position_m = {1, 2};
+  all[0].quality = {30ms, 2, 0.1};
+  all[1].area_m = {{0, 0}, {1, 0}, {1, 1}};
+  all[1].quality.loss = 1;
+  return all;
 }
 
 template <class T>
@@ -119,6 +131,9 @@ TEST_CASE("the effective configuration loads again to itself") {
   auto all = example::load();
   all.obstacles.push_back({{1, 2}, 3, 4, 5});
   all.providers.front().sensors.push_back({{1, 2}, 3, {.range_m = 7}});
+  all.network.profile.areas = areas();
+  all.policies.forecast.source = "learned";
+  all.policies.forecast.shared = true;
   const auto text = to_toml(all);
   const auto again = example::load(text);
   CHECK(to_toml(again) == text);
@@ -146,6 +161,9 @@ TEST_CASE("every option stands in the documentation") {
   all.obstacles.emplace_back();
   all.fleets.front().compute.scheduling = core_order::edf;
   all.providers.front().sensors.emplace_back();
+  all.network.profile.areas = areas();
+  all.policies.forecast.source = "file";
+  all.policies.forecast.file = "quality.csv";
   std::istringstream lines{to_toml(all)};
   auto options = 0;
   for (std::string line; std::getline(lines, line);) {
