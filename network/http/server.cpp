@@ -14,6 +14,7 @@
 #include <chrono>
 #include <exception>
 #include <optional>
+#include <pthread.h>
 #include <string>
 #include <thread>
 #include <utility> // before Asio, which lacks it
@@ -175,6 +176,7 @@ public:
     accept();
     thread_ = std::thread{[this] {
       leave_signals_to_others();
+      pthread_setname_np(pthread_self(), "http"); // for `top -H`
       io_.run();
     }};
   }
