@@ -5,16 +5,30 @@
 #include "apps/scenario_arguments.hpp"
 #include "scenario/run.hpp"
 
+#include "live/shown_at.hpp"
 #include <string>
 #include <unistd.h>
 
 namespace sofof::apps {
 
+/// Where a live page is if nobody says where.
+inline const network::network_address any_port{"127.0.0.1", 0};
+
+/// @returns what is wrong with a word behind --live; else nothing.
+inline std::string trouble_with_live(const std::string& text) {
+  if (text.empty() || network::parse_address(text))
+    return "";
+  return fmt::format("'{}' is no HOST:PORT, like 127.0.0.1:9465; an address "
+                     "may follow --live, so write files before it",
+                     text);
+}
+
 struct run_arguments {
   scenario_arguments what;
   scenario::run_options options;
   std::string out;
-  std::string metrics, udp, udp_from;
+  std::string metrics, live_at, udp, udp_from;
+  CLI::Option* live = nullptr;
   bool quiet = false;
 
   void add_to(CLI::App& command) {
@@ -36,6 +50,14 @@ struct run_arguments {
                     "the wall clock only")
         ->type_name("ADDR:PORT")
         ->check(trouble_with_address);
+    live = command
+               .add_option("--live", live_at,
+                           "Show it in browsers while it goes on, and serve "
+                           "figures; on the wall clock only (default "
+                           "127.0.0.1:0, any port of this machine)")
+               ->type_name("[ADDR:PORT]")
+               ->expected(0, 1)
+               ->check(trouble_with_live);
     auto* to = command
                    .add_option("--udp", udp,
                                "Send CAMs, CPMs and MCMs there as datagrams, "
@@ -61,6 +83,9 @@ struct run_arguments {
       all.out = out;
     if (!metrics.empty())
       all.metrics = address_of(metrics);
+    if (live->count() > 0)
+      all.live =
+          live::shown_at(live_at.empty() ? any_port : address_of(live_at));
     if (!udp.empty())
       all.udp = {address_of(udp), {}};
     if (!udp_from.empty())

@@ -253,6 +253,20 @@ private:
     world_.providers.push_back(cells_.back().provider);
   }
 
+  /// @returns what reads messages, and tells of CAMs whoever wants to know.
+  std::function<messages::broadcast(const messages::its_pdu&, time_point)>
+  told() const {
+    if (!here_.on_heard)
+      return decode_;
+    return [decode = decode_, tell = here_.on_heard](
+               const messages::its_pdu& message, time_point now) {
+      auto heard = decode(message, now);
+      if (const auto* cam = std::get_if<messages::cam>(&heard))
+        tell(*cam, now);
+      return heard;
+    };
+  }
+
   messages::roadside_provider_actor spawn_provider(std::uint32_t number,
                                                    std::uint64_t start) {
     const auto& options = s_.providers[number];
@@ -263,7 +277,7 @@ private:
     const auto& own = options.streets;
     const auto& streets = own ? own : s_.world;
     setup.map = {streets, &streets->map};
-    setup.decode = decode_;
+    setup.decode = told();
     const auto beside = here_.serves_others
                             ? std::span<const roadside_options>{}
                             : std::span{options.sensors};

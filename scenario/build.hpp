@@ -39,6 +39,9 @@ struct process_share {
   std::function<void(const messages::its_pdu&)> tell_others{};
   /// Whether vehicles of other processes come to its providers.
   bool serves_others = false;
+  /// Called with what its providers hear, and when, on any thread; may be
+  /// empty.
+  std::function<void(const messages::cam&, time_point)> on_heard;
 };
 
 /// What is measured of a provider and of the radio cell round it. One that has

@@ -41,24 +41,24 @@ private:
 
 } // namespace
 
-operations::operations(const network::network_address& at,
-                       const recording::run_info& run, std::string role,
+operations::operations(const recording::run_info& run, std::string role,
                        std::function<time_point()> now,
                        recording::live_figures::more more)
     : start_{run.start}, now_{std::move(now)}, title_{fmt::format(
                                                    "sofof {} {}, {}", role,
                                                    run.version, run.scenario)},
       figures_{std::make_shared<recording::live_figures>(
-          run, std::move(role),
-          [this, more = std::move(more)](exposition& to) {
+          run, std::move(role), [this, more = std::move(more)](exposition& to) {
             if (health_ == health::starting)
               return;
             write_loads(to);
             if (more)
               more(to);
-          })},
-      server_{at,
-              [this](const network::http::request& to) { return answer(to); }} {
+          })} {}
+
+void operations::serve(const network::network_address& at) {
+  server_.emplace(
+      at, [this](const network::http::request& to) { return answer(to); });
 }
 
 std::shared_ptr<messages::record_sink>
@@ -67,7 +67,7 @@ operations::counting(std::shared_ptr<messages::record_sink> then) const {
 }
 
 std::string operations::address() const {
-  return "http://" + network::print_address(server_.address());
+  return server_ ? "http://" + network::print_address(server_->address()) : "";
 }
 
 void operations::ready(std::vector<provider_load> loads) {
@@ -99,6 +99,17 @@ operations::answer(const network::http::request& to) const {
   if (to.path != "/")
     page.status = not_found;
   return page;
+}
+
+std::vector<operations::load> operations::loads() const {
+  std::vector<load> all;
+  if (health_ == health::starting)
+    return all;
+  for (const auto& x : loads_) {
+    const auto read = x.workers->read();
+    all.push_back({x.name, read.servers, busy_share(read, now_() - start_)});
+  }
+  return all;
 }
 
 void operations::write_loads(exposition& to) const {

@@ -14,6 +14,7 @@
 #include "scenario/datagram_air.hpp"
 #include "scenario/decision_timer.hpp"
 #include "scenario/energy_terms.hpp"
+#include "scenario/live_view.hpp"
 #include "scenario/operations.hpp"
 #include "scenario/placement.hpp"
 #include "scenario/runtime.hpp"
@@ -130,7 +131,8 @@ struct stage {
   stopwatch watch{};
   std::optional<stall_watch> stalls{}; ///< On the wall clock.
   operations* watched = nullptr;       ///< Unless it is asked for,
-  datagram_air* udp = nullptr;         ///< as this.
+  live_view* live = nullptr;           ///< as these.
+  datagram_air* udp = nullptr;
 };
 
 /// Keeps which messages were disturbed before some time: the ledgers forget
@@ -279,17 +281,32 @@ recording::load_table table_of(const std::vector<provider_load>& loads,
   return all;
 }
 
+/// Says where operators and those who look on find what they want.
+void tell_addresses(const stage& on) {
+  if (on.watched && !on.watched->address().empty())
+    on.console << "figures at " << on.watched->address() << "/metrics"
+               << std::endl;
+  if (on.live)
+    on.console << "live page: " << on.live->address() << std::endl;
+}
+
+/// @returns the scenario as it is to be built for those who look on.
+scenario_definition with_tracks(scenario_definition s, const live_view* live) {
+  s.record.tracks = s.record.tracks || live; // which nobody writes
+  return s;
+}
+
 /// From the first actor to the last.
 /// @param on_start  Called once all are there; a run that it refuses has not
 ///                  begun.
 /// @throws start_refused, and whatever ends a run early; the actors have gone
 /// then, too, and `has_begun` tells whether there are results.
-played play(const scenario_definition& s, const process_share& here,
-            runtime& time, time_point end,
+played play(const scenario_definition& s, process_share here, runtime& time,
+            time_point end,
             const std::shared_ptr<recording::locked_results>& keeper, stage& on,
             const std::function<void(const world_actors&)>& on_start,
             bool& has_begun) {
-  auto timed = s;
+  auto timed = with_tracks(s, on.live);
   std::optional<deciding_times> deciding;
   if (on.options.time_decisions)
     deciding = add_timers(timed.policies);
@@ -297,6 +314,10 @@ played play(const scenario_definition& s, const process_share& here,
   std::shared_ptr<messages::record_sink> sink = keeper;
   if (on.watched)
     sink = on.watched->counting(sink);
+  if (on.live) {
+    sink = on.live->seeing(sink);
+    here.on_heard = on.live->hearing();
+  }
   if (on.udp)
     sink = on.udp->sending(sink);
   const auto actors = build(
@@ -309,11 +330,9 @@ played play(const scenario_definition& s, const process_share& here,
     has_begun = true;
     if (on.udp && on.options.udp->from)
       on.udp->hear_for(actors, s, time);
-    if (on.watched) {
+    if (on.watched)
       on.watched->ready(actors.loads);
-      on.console << "figures at " << on.watched->address() << "/metrics"
-                 << std::endl;
-    }
+    tell_addresses(on);
     std::optional<recording::cpu_meter> meter;
     if (auto* ledger = actors::ledger_of(time.system())) {
       time.run_until(std::min(start + settling, end));
@@ -405,6 +424,9 @@ run_outcome run(const scenario_definition& s, const run_options& options,
   if (options.metrics && !options.realtime)
     throw input_error("--metrics is for whoever watches a run on the wall "
                       "clock; add --realtime");
+  if (options.live && !options.realtime)
+    throw input_error("--live is for whoever watches a run on the wall clock; "
+                      "add --realtime, or look at it later with sofof report");
   if (options.udp && !options.realtime)
     throw input_error("--udp is for programs that send and hear on the wall "
                       "clock; add --realtime");
@@ -429,10 +451,15 @@ run_outcome run_part(const scenario_definition& s, const run_options& options,
   info.start = time.now();
   // A port that is taken is refused before there are results.
   std::optional<operations> watched;
-  if (options.metrics)
+  if (options.metrics || options.live)
     watched.emplace(
-        *options.metrics, info, options.role, [&time] { return time.now(); },
+        info, options.role, [&time] { return time.now(); },
         options.more_figures);
+  if (options.metrics)
+    watched->serve(*options.metrics);
+  std::unique_ptr<live_view> live;
+  if (options.live)
+    live = options.live({s, info, options.role, *watched});
   std::optional<datagram_air> udp;
   if (options.udp)
     udp.emplace(*options.udp);
@@ -445,6 +472,7 @@ run_outcome run_part(const scenario_definition& s, const run_options& options,
   const auto end = options.endless ? time_point::max() : info.start + s.length;
   stage on{options, interrupted, console, *kept.keeper};
   on.watched = watched ? &*watched : nullptr;
+  on.live = live.get();
   on.udp = udp ? &*udp : nullptr;
   if (options.realtime)
     on.stalls.emplace();

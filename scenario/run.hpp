@@ -13,12 +13,15 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace sofof::scenario {
 
+class live_view; // scenario/live_view.hpp, as
+struct live_subject;
 class runtime;        // scenario/runtime.hpp
 struct process_share; // scenario/build.hpp, as
 struct world_actors;
@@ -28,6 +31,10 @@ struct udp_options {
   network::network_address to;                  ///< Gets what is sent here.
   std::optional<network::network_address> from; ///< Where others send to.
 };
+
+/// Shows a run while it goes on. @throws network::network_error when it cannot.
+using live_view_maker =
+    std::function<std::unique_ptr<live_view>(const live_subject&)>;
 
 struct run_options {
   std::optional<std::filesystem::path> out; ///< Results folder, if asked for.
@@ -53,6 +60,7 @@ struct run_options {
   /// Where to serve figures while it goes on; on the wall clock only.
   std::optional<network::network_address> metrics;
   std::string role = "run"; ///< What this process is in them.
+  live_view_maker live;     ///< If anybody looks on; on the wall clock only.
   /// Where ITS messages go to and come from as datagrams, if asked for; on the
   /// wall clock only.
   std::optional<udp_options> udp;

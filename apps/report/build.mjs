@@ -1,10 +1,10 @@
-// Builds dist/report.html, which CMake puts into the program. Whoever changes
-// src/ runs, with Node 20 or newer, and commits what comes out:
+// Builds dist/report.html and dist/live.html, which CMake puts into the program.
+// Whoever changes src/ runs, with Node 20 or newer, and commits what comes out:
 //
 //   cd apps/report && npm ci && npm run build
 //
-// The page is one file: style and script stand in it, %title% and %document%
-// are where `sofof report` writes.
+// Each page is one file: style and script stand in it. In a report %title% and
+// %document% are where `sofof report` writes; a live page asks for what it shows.
 import { build } from "esbuild";
 import { createHash } from "node:crypto";
 import { readFile, readdir, writeFile } from "node:fs/promises";
@@ -38,14 +38,27 @@ async function digest() {
   return all.digest("hex");
 }
 
-const page = await readFile(here("src/page.html"), "utf8");
+const digest_of_all = await digest();
+
+/// @param page, style, script  Where they begin, in src/.
+async function make(name, { page, style, script, ...more }) {
+  const parts = {
+    digest: digest_of_all,
+    style: await bundle(`src/${style}`),
+    script: (await bundle(`src/${script}`)).replaceAll("</script", "<\\/script"),
+    ...more,
+  };
+  const frame = await readFile(here(`src/${page}`), "utf8");
+  const whole = frame.replace(/\{\{(\w+)\}\}/g, (_, part) => parts[part]);
+  await writeFile(here(`dist/${name}.html`), whole);
+  console.log(`dist/${name}.html: ${whole.length} characters`);
+}
+
 const licence = await readFile(here("node_modules/uplot/LICENSE"), "utf8");
-const parts = {
+await make("report", {
+  page: "page.html",
+  style: "style.css",
+  script: "main.js",
   licence: licence.trim(),
-  digest: await digest(),
-  style: await bundle("src/style.css"),
-  script: (await bundle("src/main.js")).replaceAll("</script", "<\\/script"),
-};
-const whole = page.replace(/\{\{(\w+)\}\}/g, (_, name) => parts[name]);
-await writeFile(here("dist/report.html"), whole);
-console.log(`dist/report.html: ${whole.length} characters`);
+});
+await make("live", { page: "live.html", style: "live/style.css", script: "live/main.js" });

@@ -2,6 +2,7 @@
 #include "experiments/report/drive_json.hpp"
 
 #include "experiments/report/delta_encoding.hpp"
+#include "experiments/report/event_group.hpp"
 #include "experiments/report/offloading_spans.hpp"
 #include "experiments/report/recorded_run.hpp"
 #include "experiments/report/scenery_json.hpp"
@@ -10,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <iterator>
 #include <map>
 #include <span>
 #include <string>
@@ -26,28 +26,6 @@ using nlohmann::json;
 constexpr int metre_places = 3;   // as in tracks.csv
 constexpr int second_places = 3;  // vehicles move in steps of 10 ms
 constexpr int heading_places = 4; // 0.01 degrees
-
-/// Events that are shown, and which group of them each is counted in. All but
-/// the last group are marked on the map and the strips.
-struct shown_event {
-  messages::event_type type;
-  std::string_view group;
-};
-
-constexpr shown_event shown_events[]{
-    {messages::event_type::violation, "qos"},
-    {messages::event_type::collision, "collision"},
-    {messages::event_type::near_miss, "near_miss"},
-    {messages::event_type::peer_lost, "lost"},
-    {messages::event_type::provider_lost, "lost"},
-    {messages::event_type::requester_lost, "lost"},
-    {messages::event_type::implausible, "implausible"},
-    {messages::event_type::result_refused, "other"},
-    {messages::event_type::refused, "other"},
-    {messages::event_type::clock_in_doubt, "other"},
-    {messages::event_type::clock_known, "other"},
-    {messages::event_type::provider_connected, "other"},
-    {messages::event_type::arrived, "other"}};
 
 json car_json() {
   const world::vehicle_params car;
@@ -95,13 +73,10 @@ json offloadings_json(std::span<const offloading_span> offloadings) {
 json events_json(std::span<const event_line> events) {
   auto all = json::array();
   for (const auto& one : events) {
-    const auto found =
-        std::ranges::find(shown_events, one.what, [](const shown_event& x) {
-          return messages::name_of(x.type);
-        });
-    if (found != std::end(shown_events))
+    const auto group = group_of(one.what);
+    if (!group.empty())
       all.push_back({one.t_s, one.what, one.of.station, one.of.provider,
-                     one.of.service, one.detail, found->group});
+                     one.of.service, one.detail, group});
   }
   return all;
 }

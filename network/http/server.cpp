@@ -2,6 +2,7 @@
 #include "network/http/server.hpp"
 
 #include "network/block_signals.hpp"
+#include "network/http/streams.hpp"
 #include "network/network_error.hpp"
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include <chrono>
 #include <exception>
 #include <optional>
+#include <pthread.h>
 #include <string>
 #include <thread>
 #include <utility> // before Asio, which lacks it
@@ -26,10 +28,8 @@ namespace beast = boost::beast;
 using asio::ip::tcp;
 using boost::system::error_code;
 using beast_request = beast::http::request<beast::http::empty_body>;
-using beast_response = beast::http::response<beast::http::string_body>;
 using answerer = std::function<response(const request&)>;
 
-constexpr std::size_t most_connections = 64;
 constexpr std::uint32_t longest_header = 8192;
 constexpr std::chrono::seconds patience{10};
 
@@ -42,6 +42,8 @@ request as_ours(const beast_request& from) {
   if (question != target.npos)
     to.query = target.substr(question + 1);
   to.accept = std::string{from[beast::http::field::accept]};
+  to.host = std::string{from[beast::http::field::host]};
+  to.last_event = std::string{from["Last-Event-ID"]};
   return to;
 }
 
@@ -63,6 +65,12 @@ beast_response as_theirs(response&& from, const beast_request& to) {
   out.set(beast::http::field::content_type, from.type);
   out.set(beast::http::field::cache_control, "no-store");
   out.set("X-Content-Type-Options", "nosniff");
+  for (const auto& [name, value] : from.fields)
+    out.set(name, value);
+  if (from.next) { // it ends with its connection
+    out.keep_alive(false);
+    return out;
+  }
   out.keep_alive(to.keep_alive());
   const auto size = from.body.size();
   if (to.method() != beast::http::verb::head)
@@ -71,11 +79,13 @@ beast_response as_theirs(response&& from, const beast_request& to) {
   return out;
 }
 
-/// One client; lives until its last operation is over.
+/// One client; lives until its last operation is over, or becomes a stream.
 class connection : public std::enable_shared_from_this<connection> {
 public:
-  connection(tcp::socket socket, const answerer& answer, std::size_t& count)
-      : stream_{std::move(socket)}, answer_{answer}, count_{count} {
+  connection(tcp::socket socket, const answerer& answer, streams& followers,
+             std::size_t& count)
+      : stream_{std::move(socket)}, answer_{answer},
+        followers_{followers}, count_{count} {
     ++count_;
   }
   ~connection() { --count_; }
@@ -98,14 +108,24 @@ public:
 private:
   void write() {
     const auto& asked = parser_->get();
-    out_.emplace(as_theirs(answer_of(answer_, asked), asked));
+    const auto is_head = asked.method() == beast::http::verb::head;
+    auto answer = answer_of(answer_, asked);
+    if (answer.next && !followers_.has_room())
+      answer = {503, "text/plain; charset=utf-8",
+                "as many follow as there is room for; try again later\n"};
+    auto next = answer.next;
+    out_.emplace(as_theirs(std::move(answer), asked));
+    if (next && !is_head) {
+      followers_.add(std::move(stream_), std::move(*out_), std::move(next));
+      return;
+    }
     stream_.expires_after(patience);
     const auto written = [self = shared_from_this()](error_code problem,
                                                      std::size_t) {
       if (!problem && self->out_->keep_alive())
         self->read();
     };
-    if (asked.method() == beast::http::verb::head) {
+    if (is_head) {
       serializer_.emplace(*out_);
       beast::http::async_write_header(stream_, *serializer_, written);
     } else {
@@ -115,6 +135,7 @@ private:
 
   beast::tcp_stream stream_;
   const answerer& answer_;
+  streams& followers_;
   std::size_t& count_;
   beast::flat_buffer buffer_{longest_header};
   std::optional<beast::http::request_parser<beast::http::empty_body>> parser_;
@@ -138,8 +159,9 @@ tcp::endpoint endpoint_of(asio::io_context& io, const network_address& at) {
 
 class server::state {
 public:
-  state(const network_address& at, answerer answer)
-      : answer_{std::move(answer)}, acceptor_{io_}, retry_{io_} {
+  state(const network_address& at, answerer answer, limits most)
+      : answer_{std::move(answer)}, most_connections_{most.connections},
+        followers_{io_, streams_, most.streams}, acceptor_{io_}, retry_{io_} {
     const auto endpoint = endpoint_of(io_, at);
     try {
       acceptor_.open(endpoint.protocol());
@@ -154,6 +176,7 @@ public:
     accept();
     thread_ = std::thread{[this] {
       leave_signals_to_others();
+      pthread_setname_np(pthread_self(), "http"); // for `top -H`
       io_.run();
     }};
   }
@@ -171,7 +194,7 @@ public:
 
 private:
   void accept() {
-    if (connections_ >= most_connections) {
+    if (connections_ >= most_connections_) {
       later();
       return;
     }
@@ -182,7 +205,8 @@ private:
         later();
         return;
       }
-      std::make_shared<connection>(std::move(socket), answer_, connections_)
+      std::make_shared<connection>(std::move(socket), answer_, followers_,
+                                   connections_)
           ->read();
       accept();
     });
@@ -199,15 +223,17 @@ private:
 
   // Connections, which the context holds, use what stands before it.
   answerer answer_;
-  std::size_t connections_ = 0;
+  const std::size_t most_connections_;
+  std::size_t connections_ = 0, streams_ = 0;
   asio::io_context io_{1};
+  streams followers_;
   tcp::acceptor acceptor_;
   asio::steady_timer retry_;
   std::thread thread_;
 };
 
-server::server(const network_address& at, answerer answer)
-    : state_{std::make_unique<state>(at, std::move(answer))} {}
+server::server(const network_address& at, answerer answer, limits most)
+    : state_{std::make_unique<state>(at, std::move(answer), most)} {}
 server::~server() = default;
 
 network_address server::address() const {

@@ -138,8 +138,11 @@ class Browser:
              "value": "dark" if dark else "light"}])
 
     def open(self, file):
+        self.go("file://" + os.path.abspath(file))
+
+    def go(self, url):
         self.loaded = False
-        self.ask("Page.navigate", url="file://" + os.path.abspath(file))
+        self.ask("Page.navigate", url=url)
         while not self.loaded:
             self.message()
 

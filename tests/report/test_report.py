@@ -407,9 +407,10 @@ class Page(unittest.TestCase):
         for file in sorted(files):
             with open(os.path.join(folder, file), "rb") as content:
                 digest.update(content.read())
-        with open(os.path.join(folder, "dist", "report.html")) as page:
-            self.assertTrue(
-                f"from sources {digest.hexdigest()}" in page.read())
+        for name in ("report.html", "live.html"):
+            with open(os.path.join(folder, "dist", name)) as page:
+                self.assertTrue(
+                    f"from sources {digest.hexdigest()}" in page.read())
 
 
 def page_of(title, *blocks):

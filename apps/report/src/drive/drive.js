@@ -22,7 +22,8 @@ function vehicle_from({ station, ...columns }) {
   return vehicle;
 }
 
-function lanes_from({ counts, half_widths, x, y }) {
+/// @returns lanes of what `lanes_json` of a report has packed.
+export function lanes_from({ counts, half_widths, x, y }) {
   const [all_x, all_y] = [unpack(x), unpack(y)];
   const widths = unpack(half_widths);
   let at = 0;
@@ -81,6 +82,11 @@ export class Drive {
       .get(station)
       .find(({ from, until }) => from - slack <= time && time <= until + slack);
     return one?.provider ?? "";
+  }
+
+  /// @returns who plans for a vehicle, for readers.
+  planned_text({ station, remote }, time) {
+    return `planned ${remote ? `by ${this.planner_at(station, time) || "remote"}` : "on board"}`;
   }
 
   /// @returns where a vehicle is; null before its first line and after its

@@ -182,10 +182,9 @@ export class DriveMap {
     this.tip.hidden = !vehicle;
     this.canvas.style.cursor = vehicle ? "pointer" : this.view.zoom > 1 ? "grab" : "";
     if (!vehicle) return;
-    const planner = this.drive.planner_at(vehicle.station, this.clock.time) || "remote";
     this.tip.textContent =
       `${vehicle.station} · ${(vehicle.speed * 3.6).toFixed(0)} km/h · ` +
-      `planned ${vehicle.remote ? `by ${planner}` : "on board"}`;
+      this.drive.planned_text(vehicle, this.clock.time);
     const left = this.view.left(vehicle.x);
     this.tip.classList.toggle("leftwards", left > this.view.width / 2);
     this.tip.style.left = `${left}px`;
