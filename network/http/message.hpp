@@ -16,6 +16,7 @@ struct response {
   unsigned status = 200;
   std::string type = "text/plain; charset=utf-8";
   std::string body;
+  std::string location{}; ///< What a server of others says of a new resource.
 };
 
 } // namespace sofof::network::http
