@@ -7,6 +7,7 @@
 #include "apps/signals.hpp"
 #include "base/input_error.hpp"
 #include "network/keys/station_list.hpp"
+#include "network/mec/registry.hpp"
 #include "scenario/hosts.hpp"
 
 #include <fmt/format.h>
@@ -46,6 +47,7 @@ void add_drive(CLI::App& app, int& exit_code) {
     log_argument log;
     scenario::drive_options what;
     std::vector<std::string> providers;
+    std::string registry;
     std::string stations;
   };
   auto* command = app.add_subcommand("drive", "Run vehicles, in a car");
@@ -56,9 +58,13 @@ void add_drive(CLI::App& app, int& exit_code) {
                    "Where a provider listens; NAME is the scenario's, needed "
                    "if it has several; may be given several times")
       ->type_name("[NAME=]HOST:PORT")
-      ->required()
       ->take_all()
       ->expected(1);
+  command
+      ->add_option("--discover", args->registry,
+                   "Registry of services (ETSI GS MEC 011) that knows where "
+                   "the scenario's providers are, instead of --provider")
+      ->type_name("URL");
   command
       ->add_option("--station", args->stations,
                    "Which vehicles, e.g. 101-106 (default all)")
@@ -72,6 +78,12 @@ void add_drive(CLI::App& app, int& exit_code) {
     const auto s = args->run.what.load();
     for (const auto& text : args->providers)
       args->what.providers.push_back(to_provider(text));
+    if (!args->registry.empty())
+      args->what.registry = network::mec011::parse_root(args->registry);
+    if (args->providers.empty() && !args->what.registry)
+      throw input_error("nobody is named who plans for the vehicles; say where "
+                        "the provider listens with --provider, or which "
+                        "registry knows it with --discover");
     args->what.stations = to_stations(args->stations);
     args->host.give(args->what);
     catch_signals();
