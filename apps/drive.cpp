@@ -8,6 +8,7 @@
 #include "apps/signals.hpp"
 #include "base/input_error.hpp"
 #include "network/keys/station_list.hpp"
+#include "network/mec/registry.hpp"
 #include "scenario/broker_hosts.hpp"
 #include "scenario/hosts.hpp"
 
@@ -49,6 +50,7 @@ void add_drive(CLI::App& app, int& exit_code) {
     log_argument log;
     scenario::drive_options what;
     std::vector<std::string> providers;
+    std::string registry;
     std::string stations;
   };
   auto* command = app.add_subcommand("drive", "Run vehicles, in a car");
@@ -61,6 +63,11 @@ void add_drive(CLI::App& app, int& exit_code) {
       ->type_name("[NAME=]HOST:PORT")
       ->take_all()
       ->expected(1);
+  command
+      ->add_option("--discover", args->registry,
+                   "Registry of services (ETSI GS MEC 011) that knows where "
+                   "the scenario's providers are, instead of --provider")
+      ->type_name("URL");
   command
       ->add_option("--station", args->stations,
                    "Which vehicles, e.g. 101-106 (default all)")
@@ -76,9 +83,16 @@ void add_drive(CLI::App& app, int& exit_code) {
     for (const auto& text : args->providers)
       args->what.providers.push_back(to_provider(text));
     const auto broker = args->broker.given(s);
-    if (args->providers.empty() == !broker)
-      throw input_error("drive needs --provider for each provider, or a "
-                        "--broker that leads to all of them");
+    if (!args->registry.empty())
+      args->what.registry = network::mec011::parse_root(args->registry);
+    if (broker && (args->what.registry || !args->providers.empty()))
+      throw input_error("--broker leads to all providers; leave --provider and "
+                        "--discover away");
+    if (args->providers.empty() && !args->what.registry && !broker)
+      throw input_error("nobody is named who plans for the vehicles; say where "
+                        "the provider listens with --provider, which registry "
+                        "knows it with --discover, or over which broker it is "
+                        "reached with --broker");
     args->what.stations = to_stations(args->stations);
     args->host.give(args->what);
     catch_signals();

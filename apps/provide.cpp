@@ -6,11 +6,15 @@
 #include "apps/log_argument.hpp"
 #include "apps/run_arguments.hpp"
 #include "apps/signals.hpp"
+#include "network/mec/registry.hpp"
 #include "scenario/broker_hosts.hpp"
 #include "scenario/hosts.hpp"
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <ostream>
+#include <string>
 #include <sys/resource.h>
 
 namespace sofof::apps {
@@ -26,6 +30,19 @@ void allow_many_files() {
   setrlimit(RLIMIT_NOFILE, &files);
 }
 
+/// HOST[:PORT]
+network::network_address advertised_address(const std::string& text) {
+  if (text.empty())
+    return {};
+  if (const auto whole = network::parse_address(text))
+    return *whole;
+  if (const auto host = network::parse_address(text + ":0"))
+    return *host;
+  throw input_error(fmt::format("'{}' is no HOST or HOST:PORT to advertise, "
+                                "like 10.0.0.5 or [fd00::5]:4711",
+                                text));
+}
+
 } // namespace
 
 void add_provide(CLI::App& app, int& exit_code) {
@@ -36,6 +53,7 @@ void add_provide(CLI::App& app, int& exit_code) {
     log_argument log;
     scenario::provide_options what;
     std::string listen = "127.0.0.1:4711";
+    std::string registry, application, advertised;
   };
   auto* command =
       app.add_subcommand("provide", "Run a provider, on an edge server");
@@ -50,6 +68,24 @@ void add_provide(CLI::App& app, int& exit_code) {
                    "Which provider of the scenario, if it has several")
       ->type_name("NAME");
   args->broker.add_to(*command);
+  auto* registry =
+      command
+          ->add_option("--register", args->registry,
+                       "Registry of services (ETSI GS MEC 011) that shall list "
+                       "the provider")
+          ->type_name("URL");
+  command
+      ->add_option("--app-instance", args->application,
+                   "What the registry's platform calls this application "
+                   "(default sofof-NAME)")
+      ->type_name("ID")
+      ->needs(registry);
+  command
+      ->add_option("--advertise", args->advertised,
+                   "Where vehicles reach the provider, for the registry "
+                   "(default as --listen)")
+      ->type_name("HOST[:PORT]")
+      ->needs(registry);
   args->host.add_to(*command);
   args->log.add_to(*command);
   command->footer(
@@ -60,6 +96,13 @@ void add_provide(CLI::App& app, int& exit_code) {
     const auto s = args->run.what.load();
     args->what.listen = address_of(args->listen);
     const auto broker = args->broker.given(s);
+    if (!args->registry.empty())
+      args->what.registry = {network::mec011::parse_root(args->registry),
+                             args->application,
+                             advertised_address(args->advertised)};
+    if (broker && args->what.registry)
+      throw input_error("--register lists an address, and a provider that is "
+                        "reached over a --broker has none");
     auto options = args->run.given();
     options.endless = args->run.what.length.empty();
     args->host.give(args->what);

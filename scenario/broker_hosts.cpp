@@ -180,7 +180,7 @@ run_outcome drive_by_broker(const scenario_definition& s,
       time->system(), vehicles_setup(stations, broker, line));
   for (std::size_t place = 0; place < s.providers.size(); ++place) {
     auto setup = connection_to(s, place, what, stations, board);
-    setup.address = print_broker(broker.url);
+    setup.address = [text = print_broker(broker.url)] { return text; };
     setup.clock = time->clock();
     setup.pace = broker_pace;
     if (keys)

@@ -4,58 +4,22 @@
 
 #include "actors/remote/acceptor.hpp"
 #include "actors/remote/provider_connection.hpp"
-#include "base/text/printable.hpp"
 #include "network/keys/key_ring.hpp"
 #include "scenario/build.hpp"
 #include "scenario/hosts.hpp"
+#include "scenario/news_board.hpp"
 #include "scenario/runtime.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace sofof::scenario {
-
-/// What actors say to people; the console's thread asks for it.
-class news_board {
-public:
-  void log(std::string line) {
-    const std::lock_guard lock{mutex_};
-    lines_.push_back(printable(std::move(line)));
-  }
-  void refuse(const std::string& why) {
-    const std::lock_guard lock{mutex_};
-    if (is_connected_) // to another provider: whoever drives goes on
-      lines_.push_back(printable(why));
-    else
-      refusal_ = printable(why);
-  }
-  void connected() {
-    const std::lock_guard lock{mutex_};
-    is_connected_ = true;
-  }
-
-  /// @throws start_refused once we have been refused.
-  std::vector<std::string> take() {
-    const std::lock_guard lock{mutex_};
-    if (refusal_)
-      throw start_refused(*refusal_);
-    return std::exchange(lines_, {});
-  }
-
-private:
-  std::mutex mutex_;
-  std::vector<std::string> lines_;
-  std::optional<std::string> refusal_;
-  bool is_connected_ = false;
-};
 
 /// @returns what a run asks for news, which also reads the keys again when
 /// they have changed.

@@ -3,11 +3,13 @@
 
 #include "actors/runtime/clock_error.hpp"
 #include "messages/protocol/remote.hpp"
+#include "network/http/client.hpp"
 #include "network/network_address.hpp"
 #include "scenario/run.hpp"
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -27,17 +29,30 @@ struct host_options {
       messages::remote_protocol; ///< ... and what it speaks.
 };
 
+/// A registry of services that lists a provider.
+struct register_options {
+  network::http::url root;
+  std::string application; ///< What its platform calls us; empty: sofof-NAME.
+  /// Where vehicles reach us; without a port: where we listen. Not a name:
+  /// where we listen, unless that is anywhere.
+  network::network_address advertised;
+};
+
 struct provide_options : host_options {
   std::string name; ///< Of the provider; empty: the only one.
   network::network_address listen;
+  std::optional<register_options> registry;
 };
 
 struct drive_options : host_options {
   struct provider {
     std::string name; ///< Empty: the only one.
-    network::network_address at;
+    /// Without it: a registry knows.
+    std::optional<network::network_address> at;
   };
-  std::vector<provider> providers;
+  std::vector<provider> providers; ///< Those whose address is known.
+  /// A registry of services that knows where others of the scenario are.
+  std::optional<network::http::url> registry;
   std::set<station_id> stations; ///< Empty: all.
 };
 

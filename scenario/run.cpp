@@ -339,6 +339,8 @@ played play(const scenario_definition& s, process_share here, runtime& time,
       meter.emplace(*ledger, time.now());
     }
     run.ended = advance(time, end, actors.loads, on);
+    if (on.options.when_ending)
+      on.options.when_ending();
     if (on.watched)
       on.watched->ending();
     if (on.udp)

@@ -66,6 +66,8 @@ struct run_options {
   std::optional<udp_options> udp;
   /// Adds to them what no record tells, on any thread.
   std::function<void(recording::exposition&)> more_figures;
+  /// Called when the run is about to end, before its actors are.
+  std::function<void()> when_ending;
   /// Called ten times a second of a run on the wall clock.
   /// @returns lines to show. What it throws ends the run.
   std::function<std::vector<std::string>()> news;

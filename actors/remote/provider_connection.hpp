@@ -19,7 +19,8 @@ namespace sofof::actors {
 /// What a connection is made of. Its functions are called from any thread.
 struct provider_connection_setup {
   std::string provider; ///< The name that it must have.
-  std::string address;  ///< For people.
+  /// Where it is now, for people.
+  std::function<std::string()> address = [] { return std::string{}; };
   std::vector<station_id> stations;
   std::uint64_t world = 0; ///< Fingerprint that the provider must have as well.
   messages::etsi::its_clock clock;

@@ -64,7 +64,7 @@ void provider_connection_state::on_attempt_failed(const std::string& why) {
     return; // another attempt was faster
   attempts->end();
   publish(fmt::format("no connection to provider {} at {}: {}; trying again",
-                      setup->provider, setup->address, why));
+                      setup->provider, setup->address(), why));
 }
 
 void provider_connection_state::on_acceptor(
@@ -86,7 +86,7 @@ void provider_connection_state::on_refusal(const std::string& why,
     return;
   }
   const auto sentence = fmt::format("provider {} at {} refuses: {}",
-                                    setup->provider, setup->address, why);
+                                    setup->provider, setup->address(), why);
   if (was_connected || now(self) - began > beginning)
     publish(sentence);
   else
@@ -108,9 +108,9 @@ void provider_connection_state::on_welcome(
   self->monitor(peer);
   send_to_provider(life->beat(t));
   provider = welcome.provider;
-  log_event(messages::event_type::provider_connected, setup->address);
+  log_event(messages::event_type::provider_connected, setup->address());
   publish(fmt::format("connected to provider {} at {}", setup->provider,
-                      setup->address));
+                      setup->address()));
 }
 
 void provider_connection_state::disconnect(std::string_view why) {
@@ -130,7 +130,7 @@ void provider_connection_state::disconnect(std::string_view why) {
   log_event(messages::event_type::provider_lost, why);
   publish(fmt::format("lost provider {} at {}: {}; vehicles plan for "
                       "themselves",
-                      setup->provider, setup->address, why));
+                      setup->provider, setup->address(), why));
 }
 
 void provider_connection_state::on_down(const caf::actor_addr& who) {

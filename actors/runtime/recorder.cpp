@@ -1,8 +1,11 @@
 // Keeps what happened: hands the records of all actors to one sink.
 #include "actors/runtime/recorder.hpp"
 
+#include <caf/send.hpp>
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
+
+#include <utility>
 
 namespace sofof::actors {
 
@@ -20,6 +23,11 @@ messages::recorder_actor
 spawn_recorder(caf::actor_system& sys,
                std::shared_ptr<messages::record_sink> sink) {
   return sys.spawn(recorder, std::move(sink));
+}
+
+void send_record(const messages::recorder_actor& recorder,
+                 messages::record what) {
+  caf::anon_send(recorder, std::move(what));
 }
 
 } // namespace sofof::actors

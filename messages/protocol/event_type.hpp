@@ -33,6 +33,8 @@ enum class event_type : std::uint8_t {
   peer_refused,
   peer_ignored,
   peer_disconnected,
+  registry_answered, ///< As it should, and something has changed.
+  registry_failed,
   doubted,
   believed,
   requester_lost,
@@ -70,6 +72,8 @@ inline constexpr event_name event_names[]{
     {event_type::peer_refused, "peer_refused"},
     {event_type::peer_ignored, "peer_ignored"},
     {event_type::peer_disconnected, "peer_disconnected"},
+    {event_type::registry_answered, "registry_answered"},
+    {event_type::registry_failed, "registry_failed"},
     {event_type::doubted, "doubted"},
     {event_type::believed, "believed"},
     {event_type::requester_lost, "requester_lost"},

@@ -1,6 +1,8 @@
 // Boost.Beast asks; a deadline ends what takes too long.
 #include "network/http/client.hpp"
 
+#include "network/deadline.hpp"
+#include "network/name_lookup.hpp"
 #include "network/network_error.hpp"
 
 #include <fmt/format.h>
@@ -9,7 +11,12 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
+#include <cstring>
+#include <memory>
+#include <poll.h>
+#include <system_error>
 #include <utility> // before Asio, which lacks it
+#include <vector>
 
 namespace sofof::network::http {
 
@@ -20,24 +27,50 @@ namespace beast = boost::beast;
 using asio::ip::tcp;
 using boost::system::error_code;
 
-constexpr std::uint64_t longest_answer = 1U << 20;
+using endpoints = std::vector<tcp::endpoint>;
+
+/// @returns the addresses of a host: none that are found too late.
+endpoints find_host(const network_address& at, deadline until) {
+  const auto wake = std::make_shared<wake_up>();
+  const name_lookup lookup{&resolve, at, wake};
+  auto found = lookup.answer();
+  for (auto now = deadline_clock::now(); !found && now < until;
+       now = deadline_clock::now()) {
+    pollfd answered{wake->fd(), POLLIN, 0};
+    poll(&answered, 1, milliseconds_until(until, now));
+    found = lookup.answer();
+  }
+  endpoints all;
+  for (const auto& x : found ? *found : std::vector<socket_address>{}) {
+    tcp::endpoint& to = all.emplace_back();
+    to.resize(x.size);
+    std::memcpy(to.data(), &x.storage, x.size);
+  }
+  return all;
+}
 
 /// One question and its answer; each step begins the next.
 class exchange {
 public:
-  exchange(asio::io_context& io, const url& what) : resolver_{io}, stream_{io} {
+  /// @param host  Outlives this.
+  exchange(asio::io_context& io, const endpoints& host, const question& how,
+           const url& what, std::uint64_t most_octets)
+      : stream_{io} {
     question_.version(11); // HTTP/1.1
-    question_.method(beast::http::verb::get);
+    question_.method_string(how.method);
     question_.target(what.target);
     question_.set(beast::http::field::host, print_address(what.at));
     question_.set(beast::http::field::user_agent, "sofof");
+    if (!how.type.empty())
+      question_.set(beast::http::field::content_type, how.type);
+    question_.body() = how.body;
+    question_.prepare_payload();
     question_.keep_alive(false);
-    answer_.body_limit(longest_answer);
-    resolver_.async_resolve(what.at.host, std::to_string(what.at.port),
-                            [this](error_code problem, auto all) {
-                              if (goes_on(problem))
-                                connect(all);
-                            });
+    answer_.body_limit(most_octets);
+    stream_.async_connect(host, [this](error_code problem, const auto&) {
+      if (goes_on(problem))
+        ask();
+    });
   }
 
   /// @returns what is known so far.
@@ -46,7 +79,8 @@ public:
   response answer() const {
     const auto& from = answer_.get();
     return {from.result_int(),
-            std::string{from[beast::http::field::content_type]}, from.body()};
+            std::string{from[beast::http::field::content_type]}, from.body(),
+            std::string{from[beast::http::field::location]}};
   }
 
 private:
@@ -54,12 +88,6 @@ private:
     problem_ = problem;
     is_done_ = is_done_ || problem;
     return !problem;
-  }
-  void connect(const tcp::resolver::results_type& all) {
-    stream_.async_connect(all, [this](error_code problem, const auto&) {
-      if (goes_on(problem))
-        ask();
-    });
   }
   void ask() {
     beast::http::async_write(stream_, question_,
@@ -76,10 +104,9 @@ private:
                             });
   }
 
-  tcp::resolver resolver_;
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
-  beast::http::request<beast::http::empty_body> question_;
+  beast::http::request<beast::http::string_body> question_;
   beast::http::response_parser<beast::http::string_body> answer_;
   error_code problem_;
   bool is_done_ = false;
@@ -110,18 +137,33 @@ std::optional<url> parse_url(std::string_view text) {
   return found;
 }
 
-response get(const url& what, std::chrono::milliseconds patience) {
-  asio::io_context io{1};
-  exchange all{io, what};
-  io.run_for(patience);
+response ask(const question& how, const url& what, const bounds& within) {
+  const auto until = deadline_clock::now() + within.patience;
   const auto where = print_address(what.at);
+  endpoints host;
+  try {
+    host = find_host(what.at, until);
+  } catch (const std::system_error& problem) { // no more threads, or files
+    throw network_error{
+        fmt::format("cannot ask {}: {}", where, problem.what())};
+  }
+  if (host.empty())
+    throw network_error{fmt::format(
+        "{} has no address, or none was found in time", what.at.host)};
+  asio::io_context io{1};
+  exchange all{io, host, how, what, within.most_octets};
+  io.run_until(until);
   if (!all.is_done())
     throw network_error{fmt::format("{} has not answered within {} ms", where,
-                                    patience.count())};
+                                    within.patience.count())};
   if (all.problem())
     throw network_error{
         fmt::format("{} does not answer: {}", where, all.problem().message())};
   return all.answer();
+}
+
+response get(const url& what, std::chrono::milliseconds patience) {
+  return ask({}, what, {patience});
 }
 
 } // namespace sofof::network::http

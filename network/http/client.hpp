@@ -5,6 +5,7 @@
 #include "network/network_address.hpp"
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,10 +22,24 @@ struct url {
 /// @returns nullopt for anything else.
 std::optional<url> parse_url(std::string_view text);
 
-/// Asks by GET.
-/// @param patience  How long all together may take, but for the resolver, which
-///                  may take longer for a name that it does not find.
-/// @returns the answer, of at most 1 MiB. @throws network_error.
+/// What is asked, beyond a URL.
+struct question {
+  std::string method = "GET";
+  std::string type; ///< Of the body.
+  std::string body;
+};
+
+/// What an answer may take.
+struct bounds {
+  std::chrono::milliseconds patience; ///< All together, names of hosts, too.
+  std::uint64_t most_octets = 1U << 20;
+};
+
+/// Asks, and follows no redirection.
+/// @returns the answer. @throws network_error.
+response ask(const question& how, const url& what, const bounds& within);
+
+/// Asks by GET. @returns the answer, of at most 1 MiB. @throws network_error.
 response get(const url& what, std::chrono::milliseconds patience);
 
 } // namespace sofof::network::http

@@ -25,6 +25,7 @@ struct response {
   unsigned status = 200;
   std::string type = "text/plain; charset=utf-8";
   std::string body;
+  std::string location{}; ///< What a server of others says of a new resource.
   std::vector<std::pair<std::string, std::string>> fields{}; ///< More of head.
   /// Of a stream, which has no body: called on the server's thread whenever the
   /// client can take another piece, ten times a second at most.

@@ -61,8 +61,8 @@ class tls_connector::loop {
 public:
   loop(const credentials* own, connector_options options)
       : options_{std::move(options)}, listener_{listen_at({"127.0.0.1", 0})},
-        port_{port_of(listener_)}, context_{context_for(own, options_.service)},
-        tunnels_{options_.idle} {
+        port_{port_of(listener_)}, remote_{options_.remote},
+        context_{context_for(own, options_.service)}, tunnels_{options_.idle} {
     if (own)
       tunnels_.revoke(own->revoked());
     thread_ = std::thread{[this] { run(); }};
@@ -76,6 +76,14 @@ public:
 
   void hang_up() {
     hangs_up_ = true;
+    wake_->call();
+  }
+
+  void lead_to(network_address remote) {
+    {
+      const std::lock_guard lock{mutex_};
+      next_remote_ = std::move(remote);
+    }
     wake_->call();
   }
 
@@ -116,7 +124,7 @@ private:
       const auto events = wait();
       now_ = deadline_clock::now();
       wake_->answer();
-      take_new_context();
+      take_news();
       // In the same order as they were waited for.
       auto at = calls_.begin();
       for (std::size_t i = first_call; i < events.size(); ++i) {
@@ -158,10 +166,14 @@ private:
     return events;
   }
 
-  void take_new_context() {
+  void take_news() {
     const std::lock_guard lock{mutex_};
     if (next_context_)
       context_ = std::exchange(next_context_, std::nullopt);
+    if (next_remote_ && *next_remote_ != remote_) {
+      remote_ = *std::exchange(next_remote_, std::nullopt);
+      lookup_.reset(); // whoever waits for it gets the new one's
+    }
   }
 
   void accept_one() {
@@ -207,7 +219,7 @@ private:
 
   void ask() {
     try {
-      lookup_.emplace(options_.resolver, options_.remote, wake_);
+      lookup_.emplace(options_.resolver, remote_, wake_);
     } catch (const std::system_error& e) {
       set_last_error(e.what());
       std::erase_if(calls_, &is_nowhere);
@@ -353,10 +365,12 @@ private:
   std::atomic<bool> hangs_up_ = false;
   const std::shared_ptr<wake_up> wake_ = std::make_shared<wake_up>();
   mutable std::mutex mutex_;
-  std::string last_error_; // guarded by mutex_, as is
-  std::optional<tls_context> next_context_;
+  std::string last_error_;                  // guarded by mutex_, as is
+  std::optional<tls_context> next_context_; // and
+  std::optional<network_address> next_remote_;
 
   // Of the thread:
+  network_address remote_;
   std::optional<tls_context> context_; // none: plain
   call_list calls_;
   std::optional<name_lookup> lookup_;
@@ -371,6 +385,10 @@ tls_connector::tls_connector(const credentials* own, connector_options options)
     : loop_{std::make_unique<loop>(own, std::move(options))} {}
 
 tls_connector::~tls_connector() = default;
+
+void tls_connector::lead_to(network_address remote) {
+  loop_->lead_to(std::move(remote));
+}
 
 void tls_connector::renew(const credentials& own) {
   loop_->renew(own);

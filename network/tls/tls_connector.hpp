@@ -17,8 +17,8 @@ namespace sofof::network {
 
 /// Whom to connect to, and how long to try.
 struct connector_options {
-  network_address remote;
-  std::string provider; ///< Whom its certificate must name; empty: anybody.
+  network_address remote; ///< May be told later, by `lead_to`.
+  std::string provider;   ///< Whom its certificate must name; empty: anybody.
   tls_service service = tls_service::provider; ///< Which one it is.
   name_resolver resolver = &resolve;
   std::chrono::milliseconds lookup_timeout{2000};
@@ -55,6 +55,10 @@ public:
   /// Closes all connections, soon; new ones are welcome. Any thread may ask for
   /// this.
   void hang_up();
+
+  /// Leads to another host from now on; connections that are open stay. Any
+  /// thread may call this.
+  void lead_to(network_address remote);
 
   /// Goes by other credentials from now on, for connections that are opened
   /// later, and closes those to providers that they have revoked. Not for a

@@ -113,7 +113,7 @@ struct provider_connection_world : virtual_world {
   actors::provider_connection_setup setup() {
     actors::provider_connection_setup s;
     s.provider = "server";
-    s.address = "10.0.0.5:4711";
+    s.address = [] { return "10.0.0.5:4711"; };
     s.stations = {station, neighbour};
     s.world = 5;
     s.recorder = recorder.handle;

@@ -81,7 +81,7 @@ struct remote_world : virtual_world {
   actors::provider_connection_setup make_connection(std::size_t count) {
     actors::provider_connection_setup s;
     s.provider = "server";
-    s.address = "10.0.0.5:4711";
+    s.address = [] { return "10.0.0.5:4711"; };
     for (std::size_t k = 0; k < count; ++k)
       s.stations.push_back(static_cast<station_id::rep>(101 + k));
     s.recorder = here.handle;

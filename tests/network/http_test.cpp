@@ -91,6 +91,35 @@ TEST_CASE("who connects and says nothing keeps nobody waiting for long") {
   CHECK(line.receive(12) == to_bytes("HTTP/1.0 200"));
 }
 
+TEST_CASE("what is asked has a method, and a body with its type") {
+  std::string heard;
+  test::server at{[&](const plug& from) {
+    while (!heard.ends_with("{\"a\":1}"))
+      heard += static_cast<char>(from.receive(1).at(0));
+    from.send("HTTP/1.1 201 Created\r\nLocation: /x/7\r\n"
+              "Content-Length: 2\r\n\r\nok");
+  }};
+  const auto answer = http::ask({"PUT", "application/json", "{\"a\":1}"},
+                                {{"127.0.0.1", at.port()}, "/x"}, {patience});
+  CHECK(answer.status == 201);
+  CHECK(answer.location == "/x/7");
+  CHECK(answer.body == "ok");
+  CHECK(heard.starts_with("PUT /x HTTP/1.1\r\n"));
+  CHECK(heard.find("Content-Type: application/json\r\n") != heard.npos);
+  CHECK(heard.find("Content-Length: 7\r\n") != heard.npos);
+}
+
+TEST_CASE("an answer that is too long is given up, and so is a host that "
+          "nobody knows") {
+  const echo at;
+  CHECK_THROWS_WITH_AS(
+      http::ask({}, {at.server.address(), "/long"}, {patience, 5}),
+      doctest::Contains("body limit"), network_error);
+  CHECK_THROWS_WITH_AS(http::get({{"nobody.invalid", 80}, "/"}, patience),
+                       doctest::Contains("nobody.invalid has no address"),
+                       network_error);
+}
+
 TEST_CASE("an answer that does not come is an error in a sentence") {
   using namespace std::chrono_literals;
   http::url nobody{{"127.0.0.1", 0}, "/"};

@@ -56,6 +56,28 @@ TEST_CASE("without credentials bytes come through as they are") {
   CHECK(echoes(line, "plain"));
 }
 
+TEST_CASE("a connector leads elsewhere once it is told to, and open lines "
+          "stay") {
+  server first{echo};
+  server second{[](const plug& to) { to.send("second"); }};
+  tls_connector connector{nullptr, connector_to(first.port())};
+  const auto line = plug_into(connector.port());
+  CHECK(echoes(line, "first"));
+  connector.lead_to({"127.0.0.1", second.port()});
+  CHECK(plug_into(connector.port()).receive(6) == to_bytes("second"));
+  CHECK(echoes(line, "still first"));
+  connector.lead_to({"127.0.0.1", first.port()});
+  CHECK(echoes(plug_into(connector.port()), "first again"));
+}
+
+TEST_CASE("a connector that nobody has told its host connects to nobody") {
+  server inner{[](const plug& to) { to.send("here"); }};
+  tls_connector connector{nullptr, {}};
+  CHECK(plug_into(connector.port()).is_closed());
+  connector.lead_to({"127.0.0.1", inner.port()});
+  CHECK(plug_into(connector.port()).receive(4) == to_bytes("here"));
+}
+
 TEST_CASE("many lines carry at once") {
   const key_folder keys;
   server inner{echo};
