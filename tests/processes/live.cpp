@@ -218,8 +218,8 @@ TEST_CASE("a live page wants the wall clock, and an address if anything") {
   const auto virtual_run = at.run_sofof({"run", scenario_file, "--live"});
   CHECK(virtual_run.code == 2);
   CHECK(contains(virtual_run.err, "add --realtime"));
-  const auto swallowed =
-      at.run_sofof({"run", "--realtime", "--live", scenario_file});
-  CHECK(swallowed.code == 2);
-  CHECK(contains(swallowed.err, "so write files before it"));
+  const auto nowhere =
+      at.run_sofof({"run", scenario_file, "--realtime", "--live", "nowhere"});
+  CHECK(nowhere.code == 2);
+  CHECK(contains(nowhere.err, "'nowhere' is no HOST:PORT"));
 }
