@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <sys/resource.h>
@@ -43,6 +44,43 @@ network::network_address advertised_address(const std::string& text) {
                                 text));
 }
 
+/// How a registry of services learns of the provider.
+struct registration_arguments {
+  std::string url, application, advertised;
+
+  void add_to(CLI::App& command) {
+    auto* registry =
+        command
+            .add_option(
+                "--register", url,
+                "Registry of services (ETSI GS MEC 011) that shall list "
+                "the provider")
+            ->type_name("URL");
+    command
+        .add_option("--app-instance", application,
+                    "What the registry's platform calls this application "
+                    "(default sofof-NAME)")
+        ->type_name("ID")
+        ->needs(registry);
+    command
+        .add_option("--advertise", advertised,
+                    "Where vehicles reach the provider, for the registry "
+                    "(default as --listen)")
+        ->type_name("HOST[:PORT]")
+        ->needs(registry);
+  }
+
+  /// @returns what was asked for; nothing: no registry.
+  /// @throws input_error.
+  std::optional<scenario::register_options> given() const {
+    if (url.empty())
+      return std::nullopt;
+    return scenario::register_options{network::mec011::parse_root(url),
+                                      application,
+                                      advertised_address(advertised)};
+  }
+};
+
 } // namespace
 
 void add_provide(CLI::App& app, int& exit_code) {
@@ -53,7 +91,7 @@ void add_provide(CLI::App& app, int& exit_code) {
     log_argument log;
     scenario::provide_options what;
     std::string listen = "127.0.0.1:4711";
-    std::string registry, application, advertised;
+    registration_arguments registration;
   };
   auto* command =
       app.add_subcommand("provide", "Run a provider, on an edge server");
@@ -68,24 +106,7 @@ void add_provide(CLI::App& app, int& exit_code) {
                    "Which provider of the scenario, if it has several")
       ->type_name("NAME");
   args->broker.add_to(*command);
-  auto* registry =
-      command
-          ->add_option("--register", args->registry,
-                       "Registry of services (ETSI GS MEC 011) that shall list "
-                       "the provider")
-          ->type_name("URL");
-  command
-      ->add_option("--app-instance", args->application,
-                   "What the registry's platform calls this application "
-                   "(default sofof-NAME)")
-      ->type_name("ID")
-      ->needs(registry);
-  command
-      ->add_option("--advertise", args->advertised,
-                   "Where vehicles reach the provider, for the registry "
-                   "(default as --listen)")
-      ->type_name("HOST[:PORT]")
-      ->needs(registry);
+  args->registration.add_to(*command);
   args->host.add_to(*command);
   args->log.add_to(*command);
   command->footer(
@@ -96,10 +117,7 @@ void add_provide(CLI::App& app, int& exit_code) {
     const auto s = args->run.what.load();
     args->what.listen = address_of(args->listen);
     const auto broker = args->broker.given(s);
-    if (!args->registry.empty())
-      args->what.registry = {network::mec011::parse_root(args->registry),
-                             args->application,
-                             advertised_address(args->advertised)};
+    args->what.registry = args->registration.given();
     if (broker && args->what.registry)
       throw input_error("--register lists an address, and a provider that is "
                         "reached over a --broker has none");

@@ -2,6 +2,8 @@
 #include "offloading/requester.hpp"
 
 #include <algorithm>
+#include <cassert>
+#include <cmath>
 #include <limits>
 
 namespace sofof::offloading {
@@ -14,6 +16,7 @@ requester::forecasts(const service_state& service,
   std::vector<policies::provider_forecast> all;
   if (!setup_.forecast || !setup_.policy->needs_forecast())
     return all;
+  assert(std::isfinite(ego_.own.speed_mps));
   for (const auto& x : providers)
     all.push_back({x.id, policies::forecast_along(*setup_.forecast, x.id,
                                                   service.service.name.view(),
@@ -23,6 +26,8 @@ requester::forecasts(const service_state& service,
 
 void requester::learn_place(const service_state& service, provider_id provider,
                             duration latency, bool is_offer) {
+  assert(provider != provider_id{0});
+  assert(service.needs.max_latency > duration{0});
   if (setup_.forecast)
     setup_.forecast->learn({.provider = provider,
                             .service = service.service.name.view(),
@@ -35,6 +40,7 @@ void requester::learn_place(const service_state& service, provider_id provider,
 // What has nothing to do with the place, as a wrong result, is not told.
 void requester::learn_missed(const service_state& service,
                              provider_id provider) {
+  assert(provider != provider_id{0});
   if (setup_.forecast)
     setup_.forecast->learn(
         {.provider = provider,

@@ -6,7 +6,6 @@
 #include <caf/binary_deserializer.hpp>
 #include <caf/binary_serializer.hpp>
 #include <caf/byte_buffer.hpp>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
@@ -204,27 +203,6 @@ std::optional<letter> from_amqp(const network::amqp::message& m) {
       || !put_in(x.what, std::move(*its)))
     return std::nullopt;
   return x;
-}
-
-std::string selector_of_vehicles(const std::vector<station_id>& stations) {
-  auto all = stations;
-  std::ranges::sort(all);
-  std::string text = "(mid = 2052 AND destination_station_id IS NULL)";
-  for (std::size_t i = 0; i < all.size();) {
-    auto end = i + 1;
-    while (end < all.size() && all[end].value() == all[end - 1].value() + 1)
-      ++end;
-    text += fmt::format(" OR destination_station_id BETWEEN {} AND {}", all[i],
-                        all[end - 1]);
-    i = end;
-  }
-  return text.size() <= 4096 ? text : std::string{};
-}
-
-std::string selector_of_provider(station_id own) {
-  return fmt::format("(destination_station_id IS NULL OR "
-                     "destination_station_id = {0}) AND NOT(station_id = {0})",
-                     own);
 }
 
 } // namespace sofof::actors::wire

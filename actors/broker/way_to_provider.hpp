@@ -1,0 +1,76 @@
+// A way to one provider over a broker.
+#pragma once
+
+#include "actors/broker/vehicle_side.hpp"
+
+#include <caf/actor_control_block.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sofof::actors {
+
+/// What stands for a provider.
+using way_actor =
+    messages::acceptor_actor::extend_with<messages::handshake_actor>::
+        extend_with<messages::provider_endpoint_actor>::extend<
+            // The provider's answers: an invitation, a welcome and its station,
+            // or a refusal.
+            messages::reacts_to<std::uint32_t, std::uint64_t, std::string>,
+            messages::reacts_to<messages::peer_welcome, station_id::rep>,
+            messages::reacts_to<std::string, bool>>;
+
+/// A way that is open.
+struct open_way {
+  std::string provider;
+  caf::weak_actor_ptr way;
+  messages::vehicle_endpoint_actor endpoint; ///< Null before the hello.
+};
+
+/// What the ways of a process have in common. Any thread may call its
+/// functions.
+struct vehicle_side::shared {
+  shared(caf::actor_system& s, vehicle_side_setup with)
+      : sys{s}, setup{std::move(with)} {}
+
+  caf::actor_system& sys;
+  const vehicle_side_setup setup;
+  std::mutex mutex; // of the following
+  std::map<std::int64_t, open_way> ways;
+  std::map<std::pair<station_id, std::byte>, std::vector<std::byte>> latest;
+
+  /// Sends a CAM, CPM or MCM that is for everybody, if it is not the one of
+  /// this kind that was sent last.
+  void tell(station_id from, const messages::its_pdu& message) {
+    if (message.octets.size() < 2)
+      return;
+    {
+      const std::lock_guard lock{mutex};
+      auto& last = latest[{from, message.octets[1]}];
+      if (last == message.octets)
+        return;
+      last = message.octets;
+    }
+    setup.send(
+        {.user = setup.user, .from = from, .what = wire::broadcast{message}});
+  }
+
+  std::optional<open_way> find(std::int64_t link) {
+    const std::lock_guard lock{mutex};
+    const auto at = ways.find(link);
+    return at == ways.end() ? std::nullopt : std::optional{at->second};
+  }
+};
+
+/// Spawns what stands for the provider of this name, known by this link.
+way_actor spawn_way(std::shared_ptr<vehicle_side::shared> shared,
+                    std::int64_t link, std::string provider);
+
+} // namespace sofof::actors
