@@ -96,7 +96,16 @@ private:
                                  listen();
                              });
   }
+  // In two steps: Beast forgets its own limit when the first octets of a body
+  // come along with the header.
   void listen() {
+    beast::http::async_read_header(stream_, buffer_, answer_,
+                                   [this](error_code problem, std::size_t) {
+                                     if (goes_on(problem))
+                                       listen_on();
+                                   });
+  }
+  void listen_on() {
     beast::http::async_read(stream_, buffer_, answer_,
                             [this](error_code problem, std::size_t) {
                               goes_on(problem);

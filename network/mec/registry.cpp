@@ -35,7 +35,7 @@ http::url parse_root(std::string_view text) {
         "address, that of a proxy on this machine, say",
         shown)};
   auto root = http::parse_url(text);
-  if (!root || root->at.port == 0
+  if (!root || root->at.port == 0 || !is_host(root->at.host)
       || root->target.find_first_of("?#") != root->target.npos)
     throw network_error{fmt::format("'{}' is no URL of a registry, like "
                                     "http://10.0.0.9:8080/mep",

@@ -68,7 +68,7 @@ network_address read_address(const json& from) {
       || port > std::numeric_limits<std::uint16_t>::max())
     throw flaw{"a port is no number from 1 to 65535"};
   network_address at{host, port.get<std::uint16_t>()};
-  if (!consists_of(host, "-._:") || parse_address(print_address(at)) != at)
+  if (!is_host(host) || parse_address(print_address(at)) != at)
     throw flaw{"a host is neither a name nor an address"};
   if (is_anywhere(host))
     throw flaw{fmt::format("host {} leads nowhere", host)};
@@ -136,6 +136,10 @@ bool is_of_ours(const json& x) {
 bool is_plain_name(std::string_view text) {
   return !text.empty() && text.size() <= longest_name && text != "."
          && text != ".." && consists_of(text, "-._~");
+}
+
+bool is_host(std::string_view text) {
+  return !text.empty() && consists_of(text, "-._:");
 }
 
 bool is_anywhere(std::string_view host) {

@@ -36,6 +36,9 @@ struct service_info {
 /// applications and services do: letters, digits and "-._~".
 bool is_plain_name(std::string_view text);
 
+/// @returns whether a text may be the name or the address of a host.
+bool is_host(std::string_view text);
+
 /// @returns whether a host stands for wherever one listens: 0.0.0.0 or ::.
 bool is_anywhere(std::string_view host);
 

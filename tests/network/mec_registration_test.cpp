@@ -170,7 +170,7 @@ TEST_CASE("a registry speaks HTTP, at a host, a port and a path") {
   CHECK(root("http://mep.example") == "http://mep.example:80");
   CHECK(contains(root("https://mep.example"), "wants TLS"));
   for (const auto* wrong : {"", "mep.example:80", "ftp://x", "http://x:0",
-                            "http://x/?a=b", "http://x/#a"})
+                            "http://x/?a=b", "http://x/#a", "http://x?a=b"})
     CHECK(contains(root(wrong), "is no URL of a registry"));
 }
 

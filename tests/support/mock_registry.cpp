@@ -190,7 +190,7 @@ private:
   }
 
   told_by_registry in_this_mood(const asked_of_registry& x) {
-    constexpr std::size_t very_long = 64U << 20;
+    constexpr std::size_t very_long = 16U << 20;
     switch (mood) {
       case registry_mood::garbage:
         return {200, "<html>\xff\xfe", {}};

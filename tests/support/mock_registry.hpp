@@ -19,7 +19,7 @@ enum class registry_mood : std::uint8_t {
   well,
   silent,    ///< It does not.
   garbage,   ///< Status 200, and no JSON.
-  huge,      ///< A list of 64 MiB.
+  huge,      ///< A list of 16 MiB.
   crowded,   ///< Ten thousand providers.
   redirects, ///< To a port of this machine.
   broken,    ///< Status 500, and a reason.
