@@ -18,14 +18,17 @@ struct broker_arguments {
   bool trusts = false;
 
   void add_to(CLI::App& command) {
+    auto* broker =
+        command
+            .add_option("--broker", url,
+                        "Cross an AMQP 1.0 broker, as `sofof broker` is one, "
+                        "instead of connecting directly; amqps:// by TLS")
+            ->type_name("URL");
     command
-        .add_option("--broker", url,
-                    "Cross an AMQP 1.0 broker, as `sofof broker` is one, "
-                    "instead of connecting directly; amqps:// by TLS")
-        ->type_name("URL");
-    command.add_flag("--trust-broker", trusts,
-                     "The broker need not prove who sends a message; see "
-                     "docs/security.md for what that gives up");
+        .add_flag("--trust-broker", trusts,
+                  "The broker need not prove who sends a message; see "
+                  "docs/security.md for what that gives up")
+        ->needs(broker);
   }
 
   /// @returns the broker to use; nothing: none.

@@ -106,6 +106,7 @@ void add_provide(CLI::App& app, int& exit_code) {
                    "Which provider of the scenario, if it has several")
       ->type_name("NAME");
   args->broker.add_to(*command);
+  command->get_option("--broker")->excludes(command->get_option("--listen"));
   args->registration.add_to(*command);
   args->host.add_to(*command);
   args->log.add_to(*command);

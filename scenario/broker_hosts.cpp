@@ -42,6 +42,16 @@ news_to(const std::shared_ptr<news_board>& board) {
   return [board](const std::string& line) { board->log(line); };
 }
 
+std::function<void(recording::exposition&)>
+figures_of_both(const std::shared_ptr<network::key_ring>& keys,
+                const std::shared_ptr<broker_line>& line) {
+  return [of_keys = figures_of(keys), line](recording::exposition& to) {
+    line->write_figures(to);
+    if (of_keys)
+      of_keys(to);
+  };
+}
+
 /// Closes a line before those end that it tells; these may still send.
 struct line_closer {
   std::shared_ptr<broker_line> line;
@@ -113,7 +123,6 @@ run_outcome provide_by_broker(const scenario_definition& s,
   const auto time = make_network_runtime(what.clock);
   const auto board = std::make_shared<news_board>();
   options = options_of_host(std::move(options), "provide", name);
-  options.more_figures = figures_of(keys);
   options.news = news_of(board, what, keys);
   const auto here = share_of_provider(place, *time);
   const auto line = std::make_shared<broker_line>(
@@ -122,6 +131,7 @@ run_outcome provide_by_broker(const scenario_definition& s,
           provider_station(static_cast<std::uint32_t>(place))),
       news_to(board));
   const line_closer closer{line};
+  options.more_figures = figures_of_both(keys, line);
   const auto open = [&](const world_actors& actors) {
     auto setup = acceptor_of(s, place, what.own_map, *time, board);
     setup.examine = [keys](const messages::peer_hello& hello,
@@ -176,6 +186,7 @@ run_outcome drive_by_broker(const scenario_definition& s,
       broker, keys, *time, actors::wire::selector_of_vehicles(stations),
       news_to(board));
   const line_closer closer{line};
+  options.more_figures = figures_of_both(keys, line);
   const auto side = std::make_shared<actors::vehicle_side>(
       time->system(), vehicles_setup(stations, broker, line));
   for (std::size_t place = 0; place < s.providers.size(); ++place) {
@@ -200,7 +211,6 @@ run_outcome drive_by_broker(const scenario_definition& s,
          }});
   }
   options.news = news_of(board, what, keys);
-  options.more_figures = figures_of(keys);
   here.tell_others = [side](const messages::its_pdu& message) {
     if (const auto from = message.station())
       side->tell(*from, message);

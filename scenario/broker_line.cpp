@@ -3,10 +3,12 @@
 
 #include "actors/runtime/time.hpp"
 #include "base/input_error.hpp"
+#include "network/amqp/is_built_in.hpp"
 #include "network/keys/nonce.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -17,6 +19,8 @@ namespace {
 constexpr std::uint16_t usual_port = 5672, usual_secured_port = 5671;
 
 constexpr std::chrono::seconds first_patience{1};
+
+constexpr std::chrono::milliseconds shortest_ttl{1}, longest_ttl{5000};
 
 /// Senders whose clocks are known.
 constexpr std::size_t most_senders = 4096;
@@ -77,6 +81,7 @@ broker_line::broker_line(broker_options what,
       }},
       clock_{time.clock()}, selector_{std::move(selector)},
       on_news_{std::move(on_news)}, fresh_{most_senders} {
+  network::amqp::require_built_in();
   const auto& url = what_.url;
   if (url.secured && !keys_)
     throw input_error(fmt::format("--broker {} is secured; name the folder of "
@@ -141,8 +146,8 @@ void broker_line::open(
                                 print_broker(what_.url), why);
     const auto is_news = [&] {
       const std::lock_guard lock{mutex_};
-      return !std::exchange(was_tried_, true)
-             || std::exchange(why_not_, why) != why;
+      const auto is_first = !std::exchange(was_tried_, true);
+      return std::exchange(why_not_, why) != why || is_first;
     }();
     tried_.notify_all();
     if (is_news)
@@ -159,9 +164,13 @@ void broker_line::on_message(const network::amqp::message& m) {
     return;
   const auto now = now_();
   const auto sender = static_cast<std::uint64_t>(letter->from.value());
-  if (m.ttl.count() == 0
-      || fresh_.is_fresh(sender, time_of_day(now) - m.created, m.ttl, now))
+  const auto is_dated = messages::is_time_of_day(m.created.count());
+  if (is_dated
+      && fresh_.is_fresh(sender, time_of_day(now) - m.created,
+                         std::clamp(m.ttl, shortest_ttl, longest_ttl), now))
     on_letter_(*letter);
+  else
+    ++too_old_;
 }
 
 std::chrono::milliseconds broker_line::time_of_day(time_point now) const {
@@ -171,6 +180,26 @@ std::chrono::milliseconds broker_line::time_of_day(time_point now) const {
 void broker_line::send(const actors::wire::letter& x) {
   if (const auto client = client_.load())
     client->send(actors::wire::to_amqp(x, time_of_day(now_())));
+}
+
+void broker_line::write_figures(recording::exposition& to) const {
+  const auto counter = [&to](std::string_view name, std::string_view help,
+                             std::uint64_t value) {
+    to.family(name, recording::exposition::kind::counter, help);
+    to.sample({}, value);
+  };
+  const auto client = client_.load();
+  const auto counts =
+      client ? client->counts() : network::amqp::client_counts{};
+  counter("sofof_broker_line_sent", "Messages sent to the broker.",
+          counts.sent);
+  counter("sofof_broker_line_dropped",
+          "Messages not sent, for want of credit or connection.",
+          counts.dropped);
+  counter("sofof_broker_line_received", "Messages that the broker sent.",
+          counts.received);
+  counter("sofof_broker_line_old",
+          "Messages received that were older than their ttl.", too_old_);
 }
 
 std::string broker_line::user() const {

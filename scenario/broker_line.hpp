@@ -7,6 +7,7 @@
 #include "network/keys/key_ring.hpp"
 #include "network/network_address.hpp"
 #include "network/tls/tls_connector.hpp"
+#include "recording/exposition.hpp"
 #include "scenario/runtime.hpp"
 
 #include <atomic>
@@ -68,6 +69,9 @@ public:
   /// Any thread; nothing is sent before it is open and connected.
   void send(const actors::wire::letter& x);
 
+  /// Adds how many messages crossed and did not; on any thread.
+  void write_figures(recording::exposition& to) const;
+
   /// @returns as whom the process sends; empty where nobody proves anything.
   std::string user() const;
 
@@ -90,6 +94,7 @@ private:
   std::function<void(const std::string&)> on_news_;
   std::function<void(const actors::wire::letter&)> on_letter_;
   network::freshness fresh_;
+  std::atomic<std::uint64_t> too_old_ = 0;
   mutable std::mutex mutex_;
   std::string why_not_ = "it does not answer"; // guarded by mutex_, as is
   bool was_tried_ = false;

@@ -3,6 +3,7 @@
 
 #include "base/fingerprint.hpp"
 #include "network/amqp/broker.hpp"
+#include "network/amqp/is_built_in.hpp"
 #include "network/http/server.hpp"
 #include "network/keys/nonce.hpp"
 #include "network/tls/tls_acceptor.hpp"
@@ -75,6 +76,7 @@ network::acceptor_options secured(network::acceptor_options how) {
 
 void run_broker(const broker_service_options& what,
                 const std::atomic<bool>& interrupted, std::ostream& console) {
+  network::amqp::require_built_in();
   const auto keys = load_keys(
       what.listen, what.keys, "--listen", [&](const network::credentials& own) {
         check_identity(own, what.keys, std::string{broker_name});

@@ -15,6 +15,8 @@ namespace {
 
 /// So many processes may have introduced themselves or be about to.
 constexpr std::size_t most_processes = 1024;
+/// So many of one user, and of all where nobody has a name, may be about to.
+constexpr std::size_t most_waiting = 2, most_nameless = 64;
 
 /// Tells an endpoint, or who stands for its process, what that has sent.
 class delivery_to_provider {
@@ -26,7 +28,7 @@ public:
   void operator()(const messages::peer_hello& x) const {
     caf::anon_send(process_, x);
   }
-  void operator()(const wire::goodbye&) const {
+  void operator()(const wire::closing&) const {
     caf::anon_send_exit(process_, caf::exit_reason::remote_link_unreachable);
   }
   void operator()(const wire::broadcast& x) const {
@@ -61,16 +63,22 @@ provider_side::provider_side(caf::actor_system& sys, provider_side_setup setup)
     : shared_{std::make_shared<shared>(sys, std::move(setup))} {}
 
 void provider_side::on_letter(const wire::letter& x) const {
-  if (const auto* knock = std::get_if<wire::knock>(&x.what)) {
-    if (knock->provider != shared_->setup.name || is_provider_station(x.from))
+  if (const auto* connect_request =
+          std::get_if<wire::connect_request>(&x.what)) {
+    if (connect_request->provider != shared_->setup.name
+        || is_provider_station(x.from))
       return;
     const std::lock_guard lock{shared_->mutex};
+    const auto most = x.user.empty() ? most_nameless : most_waiting;
     if (shared_->processes.size() >= most_processes
-        || shared_->processes.contains(x.link))
+        || shared_->processes.contains(x.link)
+        || shared_->waiting_of(x.user) >= most)
       return;
     auto& process = shared_->processes[x.link];
     process.speaker = x.from;
-    process.stands_for_it = spawn_process(shared_, x.link, x.from, *knock);
+    process.user = x.user;
+    process.stands_for_it =
+        spawn_process(shared_, x.link, x.from, *connect_request);
     return;
   }
   const auto* told = std::get_if<wire::broadcast>(&x.what);
@@ -80,7 +88,7 @@ void provider_side::on_letter(const wire::letter& x) const {
       shared_->setup.on_foreign(told->message);
     return;
   }
-  if (process->is_of(x.from))
+  if (process->user == x.user && process->is_of(x.from))
     std::visit(delivery_to_provider{process->stands_for_it, process->endpoint},
                x.what);
 }

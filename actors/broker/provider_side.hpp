@@ -24,7 +24,7 @@ struct provider_side_setup {
   std::function<void(messages::its_pdu)> on_foreign = [](auto&&) {};
 };
 
-/// Stands for processes of vehicles: each that knocks is an actor here, which
+/// Stands for processes of vehicles: each that asks is an actor here, which
 /// introduces itself at the acceptor as a peer on another host does, and sends
 /// letters. A letter is a process's own if it is for a station that it was let
 /// in with. What an endpoint sends all the time is acknowledged as soon as it

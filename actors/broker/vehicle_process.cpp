@@ -25,7 +25,7 @@ struct process_state {
     if (!shared)
       return;
     if (endpoint)
-      send(speaker, wire::goodbye{});
+      send(speaker, wire::closing{});
     shared->forget(link);
   }
 
@@ -50,13 +50,13 @@ struct process_state {
     return to_string(error);
   }
 
-  void knock(std::uint32_t protocol, std::uint64_t types) {
+  void connect_request(std::uint32_t protocol, std::uint64_t types) {
     self->request(shared->setup.acceptor, protocol::handshake_timeout, protocol,
                   types)
         .then(
             [this](std::uint32_t ours, std::uint64_t our_types,
                    const std::string& nonce, const caf::strong_actor_ptr& in) {
-              send(speaker, wire::invitation{ours, our_types, nonce});
+              send(speaker, wire::challenge{ours, our_types, nonce});
               handshake = caf::actor_cast<messages::handshake_actor>(in);
               if (handshake)
                 self->monitor(handshake);
@@ -94,14 +94,14 @@ process_actor::behavior_type
 process_of_vehicles(process_actor::stateful_pointer<process_state> self,
                     std::shared_ptr<provider_side::shared> shared,
                     std::int64_t link, station_id speaker,
-                    const wire::knock& knock) {
+                    const wire::connect_request& connect_request) {
   auto& s = self->state;
   s.self = self;
   s.shared = std::move(shared);
   s.link = link;
   s.speaker = speaker;
   self->set_down_handler([self](const caf::down_msg&) { self->quit(); });
-  s.knock(knock.protocol, knock.types);
+  s.connect_request(connect_request.protocol, connect_request.types);
   return {
       [self](station_id::rep to, const messages::service_offer& x) {
         self->state.send(to, wire::offer{x});
@@ -131,10 +131,10 @@ process_of_vehicles(process_actor::stateful_pointer<process_state> self,
 
 process_actor spawn_process(std::shared_ptr<provider_side::shared> shared,
                             std::int64_t link, station_id speaker,
-                            const wire::knock& knock) {
+                            const wire::connect_request& connect_request) {
   auto& sys = shared->sys;
   return sys.spawn(process_of_vehicles, std::move(shared), link, speaker,
-                   knock);
+                   connect_request);
 }
 
 } // namespace sofof::actors

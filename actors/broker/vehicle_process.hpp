@@ -3,12 +3,15 @@
 
 #include "actors/broker/provider_side.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <set>
+#include <string>
 #include <utility>
 
 namespace sofof::actors {
@@ -21,12 +24,14 @@ using process_actor = messages::vehicle_endpoint_actor::extend<
 struct vehicle_process {
   process_actor stands_for_it;
   messages::provider_endpoint_actor endpoint; ///< Null before it is let in.
-  station_id speaker = 0;                     ///< Whose station it knocked as.
-  std::set<station_id> stations;              ///< It was let in with these.
+  station_id speaker = 0; ///< Whose station it asked as, and
+  std::string user;       ///< as whom; all its letters are of this user.
+  /// It was let in with these; null before.
+  std::shared_ptr<const std::set<station_id>> stations;
 
   /// @returns whether a letter in its name may be for this station.
   bool is_of(station_id x) const {
-    return x == speaker || stations.contains(x);
+    return x == speaker || (stations && stations->contains(x));
   }
 };
 
@@ -60,9 +65,18 @@ struct provider_side::shared {
     const std::lock_guard lock{mutex};
     auto& process = processes.at(link);
     process.endpoint = endpoint;
-    process.stations = {hello.stations.begin(), hello.stations.end()};
+    process.stations = std::make_shared<const std::set<station_id>>(
+        hello.stations.begin(), hello.stations.end());
     for (const auto station : hello.stations)
       links.insert_or_assign(station, link);
+  }
+
+  /// @returns how many of this user have not been let in yet; with the lock.
+  std::size_t waiting_of(const std::string& user) const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(processes, [&](const auto& x) {
+          return !x.second.endpoint && x.second.user == user;
+        }));
   }
 
   void forget(std::int64_t link) {
@@ -72,10 +86,10 @@ struct provider_side::shared {
   }
 };
 
-/// Spawns what stands for a process that has knocked.
-/// @param speaker  Whose station it knocked as.
+/// Spawns what stands for a process that asks to connect.
+/// @param speaker  Whose station it asks as.
 process_actor spawn_process(std::shared_ptr<provider_side::shared> shared,
                             std::int64_t link, station_id speaker,
-                            const wire::knock& knock);
+                            const wire::connect_request& connect_request);
 
 } // namespace sofof::actors

@@ -21,7 +21,7 @@ public:
                        const messages::vehicle_endpoint_actor& endpoint)
       : from_{from}, way_{std::move(way)}, endpoint_{endpoint} {}
 
-  void operator()(const wire::invitation& x) const {
+  void operator()(const wire::challenge& x) const {
     caf::anon_send(way_, x.protocol, x.types, x.nonce);
   }
   void operator()(const messages::peer_welcome& x) const {
@@ -30,7 +30,7 @@ public:
   void operator()(const wire::refusal& x) const {
     caf::anon_send(way_, x.why, x.for_ever);
   }
-  void operator()(const wire::goodbye&) const {
+  void operator()(const wire::closing&) const {
     caf::anon_send_exit(way_, caf::exit_reason::remote_link_unreachable);
   }
   void operator()(const wire::offer& x) const {

@@ -32,7 +32,7 @@ struct way_state {
     if (!shared)
       return;
     if (endpoint)
-      send(wire::goodbye{});
+      send(wire::closing{});
     const std::lock_guard lock{shared->mutex};
     shared->ways.erase(link);
   }
@@ -45,17 +45,17 @@ struct way_state {
                         .what = std::move(what)});
   }
 
-  auto on_knock(std::uint32_t protocol, std::uint64_t types) {
+  auto on_connect_request(std::uint32_t protocol, std::uint64_t types) {
     if (const auto& who = self->current_sender())
       self->monitor(who);
     invited = self->make_response_promise<std::uint32_t, std::uint64_t,
                                           std::string, caf::strong_actor_ptr>();
-    send(wire::knock{provider, protocol, types});
+    send(wire::connect_request{provider, protocol, types});
     return invited;
   }
 
-  void on_invitation(std::uint32_t protocol, std::uint64_t types,
-                     const std::string& nonce) {
+  void on_challenge(std::uint32_t protocol, std::uint64_t types,
+                    const std::string& nonce) {
     if (invited.pending())
       invited.deliver(protocol, types, nonce,
                       nonce.empty()
@@ -124,7 +124,7 @@ way_actor::behavior_type way(way_actor::stateful_pointer<way_state> self,
   return {
       // Of the vehicles:
       [self](std::uint32_t protocol, std::uint64_t types) {
-        return self->state.on_knock(protocol, types);
+        return self->state.on_connect_request(protocol, types);
       },
       [self](const messages::peer_hello& hello,
              const messages::vehicle_endpoint_actor& from) {
@@ -142,7 +142,7 @@ way_actor::behavior_type way(way_actor::stateful_pointer<way_state> self,
       // Of the provider:
       [self](std::uint32_t protocol, std::uint64_t types,
              const std::string& nonce) {
-        self->state.on_invitation(protocol, types, nonce);
+        self->state.on_challenge(protocol, types, nonce);
       },
       [self](const messages::peer_welcome& welcome, station_id::rep from) {
         self->state.on_welcome(welcome, from);

@@ -48,9 +48,10 @@ const its_kind* kind_of(const messages::its_pdu& x) {
 
 /// How each content is called, in the order of the variant.
 constexpr std::string_view names[] = {
-    "broadcast", "knock",    "invitation", "hello",   "welcome", "refusal",
-    "goodbye",   "ping",     "pong",       "request", "input",   "end",
-    "offer",     "response", "digest",     "result"};
+    "broadcast", "connect_request", "challenge", "hello",
+    "welcome",   "refusal",         "closing",   "ping",
+    "pong",      "request",         "input",     "end",
+    "offer",     "response",        "digest",    "result"};
 static_assert(std::size(names) == std::variant_size_v<content>);
 
 template <class T>

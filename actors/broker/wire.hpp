@@ -16,26 +16,26 @@ namespace sofof::actors::wire {
 
 /// A process of vehicles asks a provider for a number to sign: the question
 /// that acceptors take.
-struct knock {
+struct connect_request {
   std::string provider; ///< The name of the one it means.
   std::uint32_t protocol = 0;
   std::uint64_t types = 0;
 };
 
-void visit_fields(auto& v, knock& x) {
+void visit_fields(auto& v, connect_request& x) {
   v("provider", x.provider);
   v("protocol", x.protocol);
   v("types", x.types);
 }
 
 /// The answer of an acceptor; without a number it lets nobody in.
-struct invitation {
+struct challenge {
   std::uint32_t protocol = 0;
   std::uint64_t types = 0;
   std::string nonce;
 };
 
-void visit_fields(auto& v, invitation& x) {
+void visit_fields(auto& v, challenge& x) {
   v("protocol", x.protocol);
   v("types", x.types);
   v("nonce", x.nonce);
@@ -53,9 +53,9 @@ void visit_fields(auto& v, refusal& x) {
 }
 
 /// One side has ended.
-struct goodbye {};
+struct closing {};
 
-void visit_fields(auto&, goodbye&) {}
+void visit_fields(auto&, closing&) {}
 
 /// A CAM, CPM or MCM that a station tells everybody.
 struct broadcast {
@@ -72,8 +72,8 @@ void visit_fields(auto& v, offer& x) {
 }
 
 using content =
-    std::variant<broadcast, knock, invitation, messages::peer_hello,
-                 messages::peer_welcome, refusal, goodbye, messages::ping,
+    std::variant<broadcast, connect_request, challenge, messages::peer_hello,
+                 messages::peer_welcome, refusal, closing, messages::ping,
                  messages::pong, messages::service_request,
                  messages::service_input, messages::service_end, offer,
                  messages::service_response, messages::session_digest,

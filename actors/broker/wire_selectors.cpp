@@ -19,7 +19,8 @@ std::string selector_of_vehicles(const std::vector<station_id>& stations) {
                         all[end - 1]);
     i = end;
   }
-  return text.size() <= 4096 ? text : std::string{};
+  // Else all, of which its own are picked.
+  return text.size() <= 2048 ? text : std::string{};
 }
 
 std::string selector_of_provider(station_id own) {

@@ -2,19 +2,8 @@
 #include "network/amqp/broker.hpp"
 #include "network/amqp/client.hpp"
 #include "network/amqp/is_built_in.hpp"
-#include "network/network_error.hpp"
 
 namespace sofof::network::amqp {
-
-namespace {
-
-[[noreturn]] void refuse() {
-  throw network_error{"this program was built without AMQP; install "
-                      "libqpid-proton-cpp12-dev and build it again with "
-                      "./sofof setup"};
-}
-
-} // namespace
 
 class client::state {};
 class broker::loop {};
@@ -24,7 +13,7 @@ bool is_built_in() {
 }
 
 client::client(client_options) {
-  refuse();
+  require_built_in();
 }
 client::~client() = default;
 void client::start() {}
@@ -38,7 +27,7 @@ client_counts client::counts() const {
 }
 
 broker::broker(broker_options) {
-  refuse();
+  require_built_in();
 }
 broker::~broker() = default;
 std::uint16_t broker::port() const {

@@ -9,8 +9,10 @@
 
 #include <atomic>
 #include <chrono>
+#include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <proton/codec/map.hpp>
 #include <proton/connection.hpp>
 #include <proton/connection_options.hpp>
@@ -40,6 +42,7 @@ constexpr std::chrono::milliseconds idle_timeout{5000};
 constexpr std::chrono::milliseconds first_pause{100};
 constexpr std::chrono::milliseconds longest_pause{2000};
 constexpr std::chrono::milliseconds longest_wait{100}; // for credit
+constexpr std::uint32_t longest_frame_taken = 64 << 10;
 
 /// @returns the filter under which brokers look for a selector.
 proton::source_options source_of(const client_options& o) {
@@ -68,29 +71,28 @@ bool proves_senders(const proton::connection& c) {
 
 class client::state final : public proton::messaging_handler {
 public:
-  explicit state(client_options options)
-      : options_{std::move(options)}, container_{*this, options_.name} {
-    container_.auto_stop(false);
-  }
+  explicit state(client_options options) : options_{std::move(options)} {}
 
   void start() {
     thread_ = std::thread{[this] {
       leave_signals_to_others();
-      container_.run();
+      run();
     }};
   }
 
   void stop() {
-    ends_ = true;
-    if (!thread_.joinable())
-      return;
-    container_.stop();
-    thread_.join();
+    {
+      const std::lock_guard lock{mutex_};
+      ends_ = true;
+      if (container_)
+        container_->stop();
+    }
+    ended_.notify_all();
+    if (thread_.joinable())
+      thread_.join();
     options_.on_message = {};
     options_.on_up = {};
     options_.on_down = {};
-    const std::lock_guard lock{mutex_};
-    is_up_ = false;
   }
 
   void send(message m) {
@@ -102,7 +104,7 @@ public:
     waiting_.push_back({std::move(m), deadline_clock::now() + longest_wait});
     if (std::exchange(is_woken_, true))
       return;
-    connection_.work_queue().add([this] { send_waiting(); });
+    work_->add([this] { send_waiting(); });
   }
 
   bool is_up() const {
@@ -117,14 +119,66 @@ public:
 private:
   // -- connecting -----------------------------------------------------------
 
-  void on_container_start(proton::container&) override { attempt(); }
+  /// A container for each attempt: what a broker sends that Proton cannot
+  /// decode, or a handler throws, ends it and nothing else.
+  void run() {
+    auto pause = first_pause;
+    for (;;) {
+      const auto was_up = attempt();
+      pause = was_up >= longest_pause ? first_pause
+                                      : std::min(2 * pause, longest_pause);
+      std::unique_lock lock{mutex_};
+      if (ended_.wait_for(lock, pause, [this] { return ends_.load(); }))
+        return;
+    }
+  }
 
-  void attempt() {
-    if (ends_)
-      return;
+  /// @returns how long there was a connection.
+  deadline::duration attempt() {
+    up_since_.reset();
+    why_ = "it does not answer";
+    try {
+      proton::container container{*this, options_.name};
+      if (!takes(&container))
+        return {};
+      try {
+        container.run();
+      } catch (const std::exception& e) {
+        why_ = e.what();
+      }
+      lose();
+    } catch (const std::exception& e) { // the system has no more files, say
+      why_ = e.what();
+    }
+    if (!ends_ && options_.on_down)
+      options_.on_down(why_);
+    return up_since_ ? deadline_clock::now() - *up_since_
+                     : deadline::duration{};
+  }
+
+  /// @returns whether there is still something to do.
+  bool takes(proton::container* one) {
+    const std::lock_guard lock{mutex_};
+    container_ = ends_ ? nullptr : one;
+    return !ends_;
+  }
+
+  void lose() {
+    const std::lock_guard lock{mutex_};
+    container_ = nullptr;
+    is_up_ = false;
+    work_ = nullptr;
+    dropped_ += waiting_.size();
+    waiting_.clear();
+    sender_ = {};
+    opened_sender_ = {};
+  }
+
+  void on_container_start(proton::container& c) override {
     proton::connection_options how;
     how.container_id(options_.name)
-        .idle_timeout(proton::duration{idle_timeout.count()});
+        .idle_timeout(proton::duration{idle_timeout.count()})
+        .max_frame_size(longest_frame_taken);
     if (!options_.host.empty())
       how.virtual_host(options_.host);
     // TLS is below, in a tunnel: what is sent here stays on this machine.
@@ -136,8 +190,7 @@ private:
       how.sasl_allowed_mechs("PLAIN")
           .user(options_.user)
           .password(options_.password);
-    why_ = "it does not answer";
-    container_.connect("amqp://" + print_address(options_.where()), how);
+    c.connect("amqp://" + print_address(options_.where()), how);
   }
 
   void on_connection_open(proton::connection& c) override {
@@ -146,6 +199,7 @@ private:
       c.close();
       return;
     }
+    links_ = 0;
     c.open_sender(options_.address, proton::sender_options{}.delivery_mode(
                                         proton::delivery_mode::AT_MOST_ONCE));
     auto from = source_of(options_);
@@ -157,10 +211,20 @@ private:
   }
 
   void on_sender_open(proton::sender& s) override {
+    opened_sender_ = s;
+    if (++links_ == 2)
+      begin();
+  }
+  void on_receiver_open(proton::receiver&) override {
+    if (++links_ == 2)
+      begin();
+  }
+
+  void begin() {
     {
       const std::lock_guard lock{mutex_};
-      sender_ = s;
-      connection_ = s.connection();
+      sender_ = opened_sender_;
+      work_ = &sender_.work_queue();
       is_up_ = true;
       is_woken_ = false;
     }
@@ -183,26 +247,6 @@ private:
   void lose(const proton::link& l, const proton::error_condition& e) {
     why_ = e.what();
     l.connection().close();
-  }
-
-  void on_transport_close(proton::transport&) override {
-    {
-      const std::lock_guard lock{mutex_};
-      if (is_up_ && deadline_clock::now() - up_since_ >= longest_pause)
-        pause_ = first_pause;
-      is_up_ = false;
-      dropped_ += waiting_.size();
-      waiting_.clear();
-      sender_ = {};
-      connection_ = {};
-    }
-    if (ends_)
-      return;
-    if (options_.on_down)
-      options_.on_down(why_);
-    container_.schedule(proton::duration{pause_.count()},
-                        [this] { attempt(); });
-    pause_ = std::min(2 * pause_, longest_pause);
   }
 
   // -- messages -------------------------------------------------------------
@@ -244,20 +288,23 @@ private:
   };
 
   client_options options_;
+  // Of the client's thread:
   std::string why_;
-  std::chrono::milliseconds pause_ = first_pause;
-  deadline up_since_;
+  std::optional<deadline> up_since_;
+  int links_ = 0; // that the broker has opened, too
+  proton::sender opened_sender_;
   mutable std::mutex mutex_; // of the following
+  std::condition_variable ended_;
+  proton::container* container_ = nullptr;
+  proton::work_queue* work_ = nullptr;
   bool is_up_ = false;
-  bool is_woken_ = false; // the container's thread will send
+  bool is_woken_ = false; // the client's thread will send
   std::deque<waiting_message> waiting_;
   proton::sender sender_;
-  proton::connection connection_;
   // Anybody's:
   std::atomic<bool> ends_ = false;
   std::atomic<std::uint64_t> sent_ = 0, received_ = 0, dropped_ = 0,
                              unreadable_ = 0;
-  proton::container container_;
   std::thread thread_;
 };
 

@@ -321,6 +321,9 @@ private:
   }
 
   tree operand() {
+    if (++operands_ > selector::most_operands)
+      throw network_error{fmt::format("the selector has more than {} operands",
+                                      selector::most_operands)};
     if (at_ < text_.size() && text_[at_] == '\'')
       return {.what = operation::literal, .value = text()};
     if (takes_word("TRUE"))
@@ -341,8 +344,8 @@ private:
     double value = 0;
     const auto* first = text_.data() + at_;
     const auto c = at_ < text_.size() ? text_[at_] : '\0';
-    if (c != '-' && c != '.'
-        && std::isdigit(static_cast<unsigned char>(c)) == 0)
+    const auto digit = c == '-' && at_ + 1 < text_.size() ? text_[at_ + 1] : c;
+    if (digit != '.' && std::isdigit(static_cast<unsigned char>(digit)) == 0)
       return std::nullopt;
     const auto [end, error] =
         std::from_chars(first, text_.data() + text_.size(), value);
@@ -428,6 +431,7 @@ private:
   std::string_view text_;
   std::size_t at_ = 0;
   int depth_ = 0;
+  int operands_ = 0;
 };
 
 } // namespace
@@ -438,6 +442,8 @@ selector::selector(selector&&) noexcept = default;
 selector& selector::operator=(selector&&) noexcept = default;
 
 selector::selector(std::string_view text) {
+  if (text.find_first_not_of(" \t\r\n") == text.npos)
+    return; // everything
   if (text.size() > longest)
     throw network_error{
         fmt::format("the selector is longer than {} characters", longest)};

@@ -28,9 +28,12 @@ public:
   /// a property is missing, or of another type.
   bool matches(const properties& of) const;
 
-  /// More characters, and deeper brackets, are refused.
-  static constexpr std::size_t longest = 8192;
+  /// More characters, deeper brackets and more operands are refused, and a
+  /// longer text is like nothing and unlike nothing.
+  static constexpr std::size_t longest = 4096;
   static constexpr int deepest = 64;
+  static constexpr int most_operands = 256;
+  static constexpr std::size_t longest_text = 256;
 
   struct node; ///< Of the tree that it is.
 

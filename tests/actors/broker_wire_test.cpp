@@ -50,12 +50,12 @@ std::vector<letter> letters() {
   };
   all.push_back({user, 101, {}, 0, broadcast{its(2, 101)}});
   all.push_back({user, 101, {}, 0, broadcast{its(14, 101)}});
-  add(knock{"mec", 10, 0xabcdef});
-  add(invitation{10, 0xabcdef, "nonce"});
+  add(connect_request{"mec", 10, 0xabcdef});
+  add(challenge{10, 0xabcdef, "nonce"});
   add(messages::peer_hello{"mec", {101, 102}, 5, 6, "pem", {std::byte{1}}});
   add(messages::peer_welcome{77, 8});
   add(refusal{"another map", true});
-  add(goodbye{});
+  add(closing{});
   add(messages::ping{1, time_point{2s}});
   add(messages::pong{{1, time_point{2s}}, time_point{3s}, time_point{4s}});
   add(messages::service_request{77, 101, 3, {"one"}, {{1, 2}}, 5.5});

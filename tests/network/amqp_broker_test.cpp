@@ -16,6 +16,7 @@
 namespace sofof::test::at_a_broker {
 
 namespace amqp = network::amqp;
+using namespace std::string_view_literals;
 
 /// Whether there is something to test; says so if not.
 bool has_amqp() {
@@ -170,16 +171,22 @@ TEST_CASE("a peer sends in its own name, for its own stations, and whole "
 TEST_CASE("a stranger is not let in where peers are known") {
   if (!has_amqp())
     return;
+  std::mutex mutex;
+  std::string refusals;
   amqp::broker_options how;
   how.identify = [](std::uint16_t) {
     return std::optional<network::peer_identity>{};
+  };
+  how.on_refusal = [&](const std::string& why) {
+    const std::lock_guard lock{mutex};
+    refusals += why + '\n';
   };
   const amqp::broker broker{std::move(how)};
   listening_client client{broker.port()};
   REQUIRE(wait_until([&] { return !client.why_down().empty(); }));
   CHECK_FALSE(client.is_up());
-  CHECK(client.why_down().find("nobody knows who connects")
-        != std::string::npos);
+  const std::lock_guard lock{mutex};
+  CHECK(refusals.find("nobody knows who it is") != std::string::npos);
 }
 
 TEST_CASE("a peer that says too much is heard for two seconds' worth") {
@@ -250,6 +257,88 @@ TEST_CASE("octets that are no AMQP harm nobody") {
     static_cast<void>(stranger.send(octets));
   }
   send_last(client);
+}
+
+/// Opens connection, session and a link to "etsi", and sends one transfer, as
+/// AMQP 1.0 has them, whose payload is these octets.
+bytes transfer_of(std::string_view payload) {
+  using namespace std::string_literals;
+  const auto frame = [](const std::string& body) {
+    std::string all(8, '\0');
+    all += body;
+    const auto size = all.size();
+    for (std::size_t i = 0; i < 4; ++i)
+      all[i] = static_cast<char>(size >> (24 - 8 * i) & 0xff);
+    all[4] = 2; // where the body begins, in words
+    return all;
+  };
+  const auto performative = [](char code, const std::string& fields,
+                               char count) {
+    std::string all = "\0\x53"s;
+    all += code;
+    all += '\xc0';
+    all += static_cast<char>(fields.size() + 1);
+    all += count;
+    return all + fields;
+  };
+  std::string all = "AMQP\0\1\0\0"s;
+  all += frame(performative('\x10', "\xa1\4liar"s, 1));               // open
+  all += frame(performative('\x11', "\x40\x43\x52\x7f\x52\x7f"s, 4)); // begin
+  // attach: name, handle, role, modes, source, target
+  all += frame(performative('\x12',
+                            "\xa1\1a\x43\x42\x50\1\x40\x00\x53\x28\x45"s
+                                + "\x00\x53\x29\xc0\7\1\xa1\4etsi"s,
+                            7));
+  // transfer: handle, id, tag, format, settled, more
+  all += frame(performative('\x14', "\x43\x43\xa0\1t\x43\x41\x42"s, 6)
+               + std::string{payload});
+  return to_bytes(all);
+}
+
+TEST_CASE("a message that cannot be decoded ends its connection alone") {
+  if (!has_amqp())
+    return;
+  const amqp::broker broker{{}};
+  listening_client client{broker.port()};
+  REQUIRE(wait_until([&] { return client.is_up(); }));
+  for (const std::string_view payload :
+       {""sv, "\xff\xff"sv, "\x00\x53\x75\xb0"sv, "\x00\x53\x74\xc1\x02\x05"sv,
+        "nonsense"sv}) {
+    const auto liar = plug_into(broker.port());
+    REQUIRE(liar.send(transfer_of(payload)));
+    send_last(client);
+  }
+  CHECK(client.is_up());
+}
+
+TEST_CASE("a broker that sends nonsense ends no client") {
+  if (!has_amqp())
+    return;
+  for (const std::string_view octets :
+       {"AMQP\0\1\0\0nonsense"sv, "HTTP/1.1 400 Bad Request"sv, ""sv}) {
+    server liar{
+        [octets](const plug& one) { static_cast<void>(one.send(octets)); }};
+    listening_client client{liar.port()};
+    REQUIRE(wait_until([&] { return !client.why_down().empty(); }));
+    CHECK_FALSE(client.is_up());
+  }
+}
+
+TEST_CASE("numbers have the types of the profile, or nobody gets them") {
+  if (!has_amqp())
+    return;
+  const amqp::broker broker{{}};
+  listening_client client{broker.port()};
+  REQUIRE(wait_until([&] { return client.is_up(); }));
+  auto m = cpm_of(101);
+  m.all["mid"] = std::int64_t{2049};
+  client.client().send(m);
+  m = cpm_of(101);
+  m.all["mid"] = std::string{"2049"};
+  client.client().send(m);
+  send_last(client);
+  CHECK(client.count() == 1);
+  CHECK(broker.counts().refused == 2);
 }
 
 TEST_CASE("a broker does not share its port") {

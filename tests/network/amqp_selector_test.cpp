@@ -84,19 +84,33 @@ TEST_CASE("what is no selector is refused, with the place") {
            "character 6");
   for (const auto* text :
        {"mid 2049", "(mid = 1", "mid = 'a", "mid IN 1", "mid = 1)", "NOT",
-        "mid BETWEEN 1 OR 2", "1 IS NULL", "mid LIKE 5", "mid = 1 AND", "?"}) {
+        "mid BETWEEN 1 OR 2", "mid = -inf", "mid = -nan", "1 IS NULL",
+        "mid LIKE 5", "mid = 1 AND", "?"}) {
     CAPTURE(text);
     CHECK(complaint_about(text).starts_with("the selector needs "));
   }
   CHECK(complaint_about(std::string(100'000, '('))
-        == "the selector is longer than 8192 characters");
-  CHECK(complaint_about(std::string(8000, '('))
+        == "the selector is longer than 4096 characters");
+  CHECK(complaint_about(std::string(4000, '('))
         == "the selector is deeper than 64 levels");
   std::string nots;
-  for (int i = 0; i < 2000; ++i)
+  for (int i = 0; i < 1000; ++i)
     nots += "NOT ";
   CHECK(complaint_about(nots + "mid")
         == "the selector is deeper than 64 levels");
+}
+
+TEST_CASE("what would take long is not looked for") {
+  std::string all = "mid = 1";
+  for (int i = 0; i < 400; ++i)
+    all += " OR a=1";
+  CHECK(complaint_about(all) == "the selector has more than 256 operands");
+  auto long_text = of_cpm;
+  long_text["quadTree"] = std::string(60'000, 'a');
+  const selector pattern{"quadTree LIKE '%" + std::string(4000, 'a') + "b'"};
+  CHECK_FALSE(pattern.matches(long_text));
+  CHECK_FALSE(selector{"quadTree NOT LIKE 'b'"}.matches(long_text));
+  CHECK(selector{"  "}.matches(long_text));
 }
 
 TEST_CASE("a selector of anything is read or refused") {

@@ -140,7 +140,10 @@ TEST_CASE("what a broker's URL and the keys lack is said before anything "
                  "a password is sent over amqps:// only"));
   CHECK(contains(complaint({"--set", "network.transport=amqp"}),
                  "name the broker with --broker"));
-  CHECK(contains(complaint({}), "drive needs --provider"));
+  CHECK(contains(complaint({}), "nobody is named who plans"));
+  CHECK(contains(complaint({"--broker", "amqp://127.0.0.1", "--provider",
+                            "127.0.0.1:4711"}),
+                 "leave --provider and --discover away"));
 }
 
 } // namespace sofof::test::with_a_broker

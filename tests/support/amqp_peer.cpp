@@ -311,12 +311,12 @@ int lie(std::uint16_t port, int count, const std::string& keys) {
   if (!wait_for({&liar}))
     return 1;
   auto lie = [&](const std::string& user, std::uint32_t station,
-                 std::uint32_t inside) {
+                 std::uint32_t inside, std::chrono::milliseconds age = 0ms) {
     message m;
     m.user = user;
     m.subject = "cam";
     m.created = std::chrono::floor<std::chrono::milliseconds>(
-        wall::now().time_since_epoch());
+        wall::now().time_since_epoch() - age);
     m.ttl = 1000ms;
     m.all = {{"station_id", station}, {"mid", std::uint16_t{2050}}};
     m.body.assign(92, std::byte{0});
@@ -329,6 +329,7 @@ int lie(std::uint16_t port, int count, const std::string& keys) {
     lie(liar.user, 102, 102);
     lie("station 102", 102, 102);
     lie(liar.user, 101, 102);
+    lie("stations 101-200", 112, 112, 5s); // as it was heard
     std::this_thread::sleep_for(5ms);
   }
   for (int i = 0; i < 20'000; ++i)
