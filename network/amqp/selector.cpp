@@ -148,7 +148,7 @@ truth evaluate(const tree& x, const properties& of) {
     case operation::like: {
       const auto text = value_of(x.of[0], of);
       const auto* is = std::get_if<std::string_view>(&text);
-      if (!is)
+      if (!is || is->size() > selector::longest_text)
         return std::nullopt;
       return is_like(*is, std::get<std::string>(x.value), x.escape);
     }
