@@ -32,20 +32,20 @@ void exchange::remove(const std::shared_ptr<subscriber>& one) {
 
 void exchange::pass_on(const std::string& address, proton::message&& m,
                        const properties& all, std::size_t body) {
-  std::shared_ptr<const passed_on> one;
+  std::vector<std::shared_ptr<subscriber>> wanting;
   const auto [first, last] = subscribers_.equal_range(address);
-  for (auto at = first; at != last; ++at) {
-    if (!at->second->wanted.matches(all))
-      continue;
-    if (!one) {
-      const std::chrono::milliseconds told{m.ttl().milliseconds()};
-      const auto ttl =
-          told.count() > 0 ? std::min(told, longest_ttl) : usual_ttl;
-      one = std::make_shared<const passed_on>(passed_on{
-          std::move(m), body + usual_head, deadline_clock::now() + ttl});
-    }
-    enqueue(*at->second, one);
-    send_waiting(*at->second);
+  for (auto at = first; at != last; ++at)
+    if (at->second->wanted.matches(all))
+      wanting.push_back(at->second);
+  if (wanting.empty())
+    return;
+  const std::chrono::milliseconds told{m.ttl().milliseconds()};
+  const auto ttl = told.count() > 0 ? std::min(told, longest_ttl) : usual_ttl;
+  const auto one = std::make_shared<const passed_on>(
+      passed_on{std::move(m), body + usual_head, deadline_clock::now() + ttl});
+  for (const auto& to : wanting) {
+    enqueue(*to, one);
+    send_waiting(*to);
   }
 }
 

@@ -176,7 +176,7 @@ std::string directory::describe(const address_book& all) const {
                      text.empty() ? "no provider of the scenario" : text);
 }
 
-void directory::publish(registry_news news) {
+void directory::publish(const registry_news& news) {
   if (news.sentence == last_told_)
     return;
   last_told_ = news.sentence;

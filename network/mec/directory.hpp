@@ -70,7 +70,7 @@ private:
   std::string why_not(const service_info& entry) const;
   std::string why_not(const network_address& at) const;
   std::string describe(const address_book& all) const;
-  void publish(registry_news news);
+  void publish(const registry_news& news);
 
   const registry at_;
   const directory_rules rules_;

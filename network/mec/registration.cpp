@@ -88,7 +88,7 @@ void registration::end() {
   }
 }
 
-void registration::publish(registry_news news) {
+void registration::publish(const registry_news& news) {
   if (news.sentence == last_told_)
     return;
   last_told_ = news.sentence;

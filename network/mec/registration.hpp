@@ -35,7 +35,7 @@ public:
 private:
   void keep();
   void add();
-  void publish(registry_news news);
+  void publish(const registry_news& news);
   std::string name() const;
 
   const registry at_;
