@@ -73,7 +73,7 @@ pause_between directory::step() {
     }
   }
   answered_.notify_all();
-  publish(std::move(*news));
+  publish(*news);
   return next;
 }
 
