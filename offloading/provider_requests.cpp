@@ -71,6 +71,7 @@ void provider::refuse(const messages::service_request& request, peer_id from,
     response.verdicts.push_back({{request.provider, request.station, name, 0},
                                  false,
                                  std::string{why}});
+  assert(response.verdicts.size() == request.services.size());
   if (request.provider == setup_.id)
     trace_.add(step::response_sent, response, now_);
   tell(response, from);

@@ -21,6 +21,7 @@ requester::forecasts(const service_state& service,
     all.push_back({x.id, policies::forecast_along(*setup_.forecast, x.id,
                                                   service.service.name.view(),
                                                   path, ego_.own.speed_mps)});
+  assert(all.size() == providers.size());
   return all;
 }
 
@@ -40,7 +41,6 @@ void requester::learn_place(const service_state& service, provider_id provider,
 // What has nothing to do with the place, as a wrong result, is not told.
 void requester::learn_missed(const service_state& service,
                              provider_id provider) {
-  assert(provider != provider_id{0});
   if (setup_.forecast)
     setup_.forecast->learn(
         {.provider = provider,

@@ -171,6 +171,7 @@ void requester::look_ahead(service_state& service, time_point now) {
   const auto path = setup_.path_ahead(ego_);
   const auto known = service.views(providers_, std::nullopt, now);
   const auto ahead = forecasts(service, known, path);
+  assert(ahead.empty() || ahead.size() == known.size());
   auto context = context_of(service, known, {}, path, now);
   context.forecasts = ahead;
   if (setup_.policy->foresees_home(context))

@@ -1,6 +1,7 @@
 // ITS messages as they are; all else by CAF's binary serializer.
 #include "actors/broker/wire.hpp"
 
+#include "actors/broker/its_kind.hpp"
 #include "messages/type_ids.hpp"
 
 #include <caf/binary_deserializer.hpp>
@@ -21,30 +22,7 @@ using network::amqp::find;
 
 constexpr std::string_view own_subject = "sofof";
 
-/// What an ITS message is on the broker.
-struct its_kind {
-  std::uint8_t message_id; ///< In its header.
-  std::uint16_t mid;
-  std::string_view subject;
-  std::chrono::milliseconds ttl;
-};
-
-/// Source: uulm-mrm/v2x_etsi_asn1 at 9177969.
-constexpr its_kind its_kinds[] = {
-    {14, 2049, "cpm", std::chrono::milliseconds{100}},
-    {2, 2050, "cam", std::chrono::milliseconds{1000}},
-    {20, 2052, "mcm", std::chrono::milliseconds{1000}},
-};
-
 constexpr std::chrono::milliseconds own_ttl{1000};
-
-const its_kind* kind_of(const messages::its_pdu& x) {
-  if (x.octets.size() < 2)
-    return nullptr;
-  const auto id = std::to_integer<std::uint8_t>(x.octets[1]);
-  const auto* at = std::ranges::find(its_kinds, id, &its_kind::message_id);
-  return at == std::end(its_kinds) ? nullptr : at;
-}
 
 /// How each content is called, in the order of the variant.
 constexpr std::string_view names[] = {
