@@ -168,12 +168,7 @@ run_outcome drive_by_broker(const scenario_definition& s,
                             const broker_options& broker, run_options options,
                             const std::atomic<bool>& interrupted,
                             std::ostream& console) {
-  check_stations(s, what.stations);
-  process_share here;
-  here.drives = [stations = what.stations](station_id x) {
-    return stations.empty() || stations.contains(x);
-  };
-  here.provides = [](std::size_t) { return false; };
+  auto here = share_of_vehicles(s, what.stations);
   const auto stations = connected_stations(s, here);
   const auto keys =
       keys_for(broker, what.keys, [&](const network::credentials& own) {

@@ -20,7 +20,8 @@ constexpr std::uint16_t usual_port = 5672, usual_secured_port = 5671;
 
 constexpr std::chrono::seconds first_patience{1};
 
-constexpr std::chrono::milliseconds shortest_ttl{1}, longest_ttl{5000};
+/// Also of messages that tell none.
+constexpr std::chrono::milliseconds longest_ttl{5000};
 
 /// Senders whose clocks are known.
 constexpr std::size_t most_senders = 4096;
@@ -164,10 +165,11 @@ void broker_line::on_message(const network::amqp::message& m) {
     return;
   const auto now = now_();
   const auto sender = static_cast<std::uint64_t>(letter->from.value());
+  const auto ttl =
+      m.ttl.count() > 0 ? std::min(m.ttl, longest_ttl) : longest_ttl;
   const auto is_dated = messages::is_time_of_day(m.created.count());
   if (is_dated
-      && fresh_.is_fresh(sender, time_of_day(now) - m.created,
-                         std::clamp(m.ttl, shortest_ttl, longest_ttl), now))
+      && fresh_.is_fresh(sender, time_of_day(now) - m.created, ttl, now))
     on_letter_(*letter);
   else
     ++too_old_;

@@ -54,6 +54,18 @@ std::uint64_t start_of(const runtime& time) {
   return static_cast<std::uint64_t>(now.count());
 }
 
+void check_stations(const scenario_definition& s,
+                    const std::set<station_id>& wanted) {
+  std::set<station_id> missing = wanted;
+  for (const auto& fleet : s.fleets)
+    for (std::int64_t k = 0; k < fleet.count; ++k)
+      missing.erase(static_cast<station_id>(fleet.first_station + k));
+  if (!missing.empty())
+    throw input_error(fmt::format("the scenario has no station {}; see its "
+                                  "fleets for those it has",
+                                  *missing.begin()));
+}
+
 } // namespace
 
 std::function<std::vector<std::string>()>
@@ -140,18 +152,6 @@ void check_identity(const network::credentials& own, const std::string& folder,
           folder, network::describe(own.identity()), station));
 }
 
-void check_stations(const scenario_definition& s,
-                    const std::set<station_id>& wanted) {
-  std::set<station_id> missing = wanted;
-  for (const auto& fleet : s.fleets)
-    for (std::int64_t k = 0; k < fleet.count; ++k)
-      missing.erase(static_cast<station_id>(fleet.first_station + k));
-  if (!missing.empty())
-    throw input_error(fmt::format("the scenario has no station {}; see its "
-                                  "fleets for those it has",
-                                  *missing.begin()));
-}
-
 void check_lives(const provider_options& provider) {
   if (provider.fails_at)
     throw input_error(fmt::format("provider {} has fails_at, which is for runs "
@@ -188,6 +188,17 @@ process_share share_of_provider(std::size_t place, const runtime& time) {
   here.provides = [place](std::size_t k) { return k == place; };
   here.serves_others = true;
   here.start = start_of(time);
+  return here;
+}
+
+process_share share_of_vehicles(const scenario_definition& s,
+                                const std::set<station_id>& wanted) {
+  check_stations(s, wanted);
+  process_share here;
+  here.drives = [wanted](station_id x) {
+    return wanted.empty() || wanted.contains(x);
+  };
+  here.provides = [](std::size_t) { return false; };
   return here;
 }
 

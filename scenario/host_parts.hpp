@@ -51,10 +51,6 @@ void check_identity(const network::credentials& own, const std::string& folder,
 void check_identity(const network::credentials& own, const std::string& folder,
                     const std::vector<station_id>& stations);
 
-/// @throws input_error when the scenario lacks one of them.
-void check_stations(const scenario_definition& s,
-                    const std::set<station_id>& wanted);
-
 /// @throws input_error when the provider is to fail, which no process can.
 void check_lives(const provider_options& provider);
 
@@ -68,6 +64,12 @@ run_options options_of_host(run_options options, std::string_view role,
 
 /// @returns the part of a process that runs one provider, for others.
 process_share share_of_provider(std::size_t place, const runtime& time);
+
+/// @returns the part of a process that drives these stations, of all if none is
+/// given.
+/// @throws input_error when the scenario lacks one of them.
+process_share share_of_vehicles(const scenario_definition& s,
+                                const std::set<station_id>& wanted);
 
 /// @returns whom a provider lets in; what is of its actors is filled in later,
 /// and how it examines a hello.

@@ -197,12 +197,7 @@ run_outcome provide(const scenario_definition& s, const provide_options& what,
 run_outcome drive(const scenario_definition& s, const drive_options& what,
                   run_options options, const std::atomic<bool>& interrupted,
                   std::ostream& console) {
-  check_stations(s, what.stations);
-  process_share here;
-  here.drives = [stations = what.stations](station_id x) {
-    return stations.empty() || stations.contains(x);
-  };
-  here.provides = [](std::size_t) { return false; };
+  auto here = share_of_vehicles(s, what.stations);
   const auto stations = connected_stations(s, here);
   std::shared_ptr<network::key_ring> keys;
   // Outlive what uses them.
