@@ -32,10 +32,9 @@ constexpr std::size_t most_unknown_stations = 256;
 
 /// @param listener  Tells of itself, too.
 std::function<void(recording::exposition&)>
-figures_of(const std::shared_ptr<network::key_ring>& keys,
-           const secure_listener& listener) {
-  return [of_keys = scenario::figures_of(keys),
-          &listener](recording::exposition& to) {
+figures_with(const std::shared_ptr<network::key_ring>& keys,
+             const secure_listener& listener) {
+  return [of_keys = figures_of(keys), &listener](recording::exposition& to) {
     to.family("sofof_handshakes_refused", recording::exposition::kind::counter,
               "TLS connections that were refused.");
     to.sample({}, listener.refused_handshakes());
@@ -142,7 +141,7 @@ run_outcome provide(const scenario_definition& s, const provide_options& what,
   const auto board = std::make_shared<news_board>();
   std::optional<announcement> entry;
   options = options_of_host(std::move(options), "provide", name);
-  options.more_figures = figures_of(keys, listener);
+  options.more_figures = figures_with(keys, listener);
   options.news = news_of(board, what, keys);
   const auto here = share_of_provider(place, *time);
   const auto open = [&](const world_actors& actors) {
@@ -246,7 +245,7 @@ run_outcome drive(const scenario_definition& s, const drive_options& what,
          }});
   }
   options.news = news_of(board, what, keys);
-  options.more_figures = scenario::figures_of(keys);
+  options.more_figures = figures_of(keys);
   const auto outcome = run_part(s, options, here, *time, interrupted, console);
   for (const auto& connector : connectors)
     connector->hang_up(); // attempts end now
