@@ -15,6 +15,7 @@ namespace sofof::apps {
 
 struct broker_arguments {
   std::string url;
+  std::string publisher;
   bool trusts = false;
 
   void add_to(CLI::App& command) {
@@ -28,6 +29,12 @@ struct broker_arguments {
         .add_flag("--trust-broker", trusts,
                   "The broker need not prove who sends a message; see "
                   "docs/security.md for what that gives up")
+        ->needs(broker);
+    command
+        .add_option("--c-roads", publisher,
+                    "Add the properties of C-ROADS to ITS messages, as this "
+                    "publisher's, e.g. DE12345")
+        ->type_name("PUBLISHER")
         ->needs(broker);
   }
 
@@ -46,7 +53,7 @@ struct broker_arguments {
                                     "amqp://127.0.0.1 or "
                                     "amqps://edge.example:5671/etsi",
                                     url));
-    return scenario::broker_options{*where, trusts};
+    return scenario::broker_options{*where, trusts, publisher};
   }
 };
 

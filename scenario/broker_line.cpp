@@ -1,6 +1,7 @@
 // An AMQP client, before which may be a tunnel.
 #include "scenario/broker_line.hpp"
 
+#include "actors/broker/c_roads.hpp"
 #include "actors/runtime/time.hpp"
 #include "base/input_error.hpp"
 #include "network/amqp/is_built_in.hpp"
@@ -92,6 +93,10 @@ broker_line::broker_line(broker_options what,
     throw input_error(fmt::format("--broker {} is not secured, so --keys has "
                                   "no effect; use amqps://",
                                   print_broker(url)));
+  if (!what_.publisher.empty() && !actors::wire::is_publisher(what_.publisher))
+    throw input_error(fmt::format("--c-roads '{}' is no publisher: two letters "
+                                  "of a country and digits, like DE12345",
+                                  what_.publisher));
   if (!url.secured && !url.user.empty())
     throw input_error("--broker: a password is sent over amqps:// only");
   if (!keys_)
@@ -180,8 +185,13 @@ std::chrono::milliseconds broker_line::time_of_day(time_point now) const {
 }
 
 void broker_line::send(const actors::wire::letter& x) {
-  if (const auto client = client_.load())
-    client->send(actors::wire::to_amqp(x, time_of_day(now_())));
+  const auto client = client_.load();
+  if (!client)
+    return;
+  auto m = actors::wire::to_amqp(x, time_of_day(now_()));
+  if (!what_.publisher.empty())
+    actors::wire::add_c_roads_properties(m, what_.publisher);
+  client->send(std::move(m));
 }
 
 void broker_line::write_figures(recording::exposition& to) const {

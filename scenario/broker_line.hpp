@@ -41,6 +41,8 @@ std::string print_broker(const broker_url& url);
 struct broker_options {
   broker_url url;
   bool trusted = false; ///< It need not prove who sends.
+  /// Adds the properties of C-ROADS, as this publisher's; empty: none.
+  std::string publisher{};
 };
 
 /// The name that a broker's certificate has to have, as if it were a provider.

@@ -1,6 +1,7 @@
 // ITS messages as they are; all else by CAF's binary serializer.
 #include "actors/broker/wire.hpp"
 
+#include "actors/broker/c_roads.hpp"
 #include "actors/broker/its_kind.hpp"
 #include "messages/type_ids.hpp"
 
@@ -159,8 +160,14 @@ network::amqp::message to_amqp(const letter& x, std::chrono::milliseconds now) {
 
 std::optional<letter> from_amqp(const network::amqp::message& m) {
   const auto* from = find<std::uint32_t>(m.all, "station_id");
-  if (!from)
-    return std::nullopt;
+  if (!from) {
+    auto its = c_roads_message(m);
+    if (!its)
+      return std::nullopt;
+    const auto station = its->station().value_or(0);
+    return letter{
+        .user = m.user, .from = station, .what = broadcast{std::move(*its)}};
+  }
   letter x{.user = m.user, .from = *from};
   if (const auto* to = find<std::uint32_t>(m.all, "destination_station_id"))
     x.to = *to;

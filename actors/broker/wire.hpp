@@ -98,7 +98,8 @@ struct letter {
 /// @param now  Time of day, since 1970.
 network::amqp::message to_amqp(const letter& x, std::chrono::milliseconds now);
 
-/// Reads one, from anybody.
+/// Reads one, from anybody: also an ITS message with the properties of C-ROADS
+/// (c_roads.hpp) alone.
 /// @returns nothing for what is no message of these, or not whole.
 std::optional<letter> from_amqp(const network::amqp::message& m);
 

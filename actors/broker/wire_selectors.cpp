@@ -25,7 +25,8 @@ std::string selector_of_vehicles(const std::vector<station_id>& stations) {
 
 std::string selector_of_provider(station_id own) {
   return fmt::format("(destination_station_id IS NULL OR "
-                     "destination_station_id = {0}) AND NOT(station_id = {0})",
+                     "destination_station_id = {0}) AND (station_id IS NULL OR "
+                     "station_id <> {0})",
                      own);
 }
 
