@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/input_error.hpp"
-#include "scenario/broker_line.hpp"
+#include "scenario/broker_connection.hpp"
 #include "scenario/scenario.hpp"
 
 #include <CLI/CLI.hpp>

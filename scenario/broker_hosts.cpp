@@ -44,29 +44,29 @@ news_to(const std::shared_ptr<news_board>& board) {
 
 std::function<void(recording::exposition&)>
 figures_of_both(const std::shared_ptr<network::key_ring>& keys,
-                const std::shared_ptr<broker_line>& line) {
-  return [of_keys = figures_of(keys), line](recording::exposition& to) {
-    line->write_figures(to);
+                const std::shared_ptr<broker_connection>& connection) {
+  return [of_keys = figures_of(keys), connection](recording::exposition& to) {
+    connection->write_figures(to);
     if (of_keys)
       of_keys(to);
   };
 }
 
-/// Closes a line before those end that it tells; these may still send.
-struct line_closer {
-  std::shared_ptr<broker_line> line;
-  ~line_closer() { line->close(); }
+/// Closes a connection before those end that it tells; these may still send.
+struct connection_closer {
+  std::shared_ptr<broker_connection> connection;
+  ~connection_closer() { connection->close(); }
 };
 
 actors::provider_side_setup
 provider_setup(const scenario_definition& s, std::size_t place,
                const messages::acceptor_actor& acceptor,
-               const std::shared_ptr<broker_line>& line) {
+               const std::shared_ptr<broker_connection>& connection) {
   return {.acceptor = acceptor,
           .name = s.providers[place].name,
           .station = provider_station(static_cast<std::uint32_t>(place)),
-          .user = line->user(),
-          .send = [line](const auto& x) { line->send(x); }};
+          .user = connection->user(),
+          .send = [connection](const auto& x) { connection->send(x); }};
 }
 
 /// @returns who hears stations that no process of this scenario has.
@@ -92,16 +92,16 @@ ear_of_vehicles(const scenario_definition& s, const world_actors& actors,
 
 actors::vehicle_side_setup
 vehicles_setup(const std::vector<station_id>& all, const broker_options& broker,
-               const std::shared_ptr<broker_line>& line) {
+               const std::shared_ptr<broker_connection>& connection) {
   actors::vehicle_side_setup setup;
   setup.station = all.empty() ? station_id{0} : all.front();
-  setup.user = line->user();
+  setup.user = connection->user();
   if (!setup.user.empty() && !broker.trusted)
     setup.is_sent_by = [](const std::string& user,
                           const std::string& provider) {
       return user == network::describe({{}, provider});
     };
-  setup.send = [line](const auto& x) { line->send(x); };
+  setup.send = [connection](const auto& x) { connection->send(x); };
   setup.draw_link = &draw_link;
   return setup;
 }
@@ -125,13 +125,13 @@ run_outcome provide_by_broker(const scenario_definition& s,
   options = options_of_host(std::move(options), "provide", name);
   options.news = news_of(board, what, keys);
   const auto here = share_of_provider(place, *time);
-  const auto line = std::make_shared<broker_line>(
+  const auto connection = std::make_shared<broker_connection>(
       broker, keys, *time,
       actors::wire::selector_of_provider(
           provider_station(static_cast<std::uint32_t>(place))),
       news_to(board));
-  const line_closer closer{line};
-  options.more_figures = figures_of_both(keys, line);
+  const connection_closer closer{connection};
+  options.more_figures = figures_of_both(keys, connection);
   const auto open = [&](const world_actors& actors) {
     auto setup = acceptor_of(s, place, what.own_map, *time, board);
     setup.examine = [keys](const messages::peer_hello& hello,
@@ -147,15 +147,15 @@ run_outcome provide_by_broker(const scenario_definition& s,
         actors::spawn_acceptor(time->system(), std::move(setup));
     actors::watch(actors.supervisor, caf::actor_cast<caf::actor>(acceptor),
                   "the acceptor");
-    auto of_side = provider_setup(s, place, acceptor, line);
+    auto of_side = provider_setup(s, place, acceptor, connection);
     of_side.on_foreign = [ear =
                               ear_of_provider(s, actors, *time)](auto message) {
       ear->on_message(std::move(message));
     };
     auto side = std::make_shared<actors::provider_side>(time->system(),
                                                         std::move(of_side));
-    line->open([side](const auto& x) { side->on_letter(x); },
-               [side] { side->lose(); });
+    connection->open([side](const auto& x) { side->on_envelope(x); },
+                     [side] { side->lose(); });
     console << fmt::format("provider {} serves over the broker {}", name,
                            print_broker(broker.url))
             << std::endl;
@@ -177,13 +177,13 @@ run_outcome drive_by_broker(const scenario_definition& s,
   const auto time = make_network_runtime(what.clock);
   const auto board = std::make_shared<news_board>();
   options = options_of_host(std::move(options), "drive", "cars");
-  const auto line = std::make_shared<broker_line>(
+  const auto connection = std::make_shared<broker_connection>(
       broker, keys, *time, actors::wire::selector_of_vehicles(stations),
       news_to(board));
-  const line_closer closer{line};
-  options.more_figures = figures_of_both(keys, line);
+  const connection_closer closer{connection};
+  options.more_figures = figures_of_both(keys, connection);
   const auto side = std::make_shared<actors::vehicle_side>(
-      time->system(), vehicles_setup(stations, broker, line));
+      time->system(), vehicles_setup(stations, broker, connection));
   for (std::size_t place = 0; place < s.providers.size(); ++place) {
     auto setup = connection_to(s, place, what, stations, board);
     setup.address = [text = print_broker(broker.url)] { return text; };
@@ -191,9 +191,9 @@ run_outcome drive_by_broker(const scenario_definition& s,
     setup.pace = broker_pace;
     if (keys)
       prove_by(keys, setup);
-    setup.connect = [side, line, name = setup.provider]()
+    setup.connect = [side, connection, name = setup.provider]()
         -> std::variant<messages::acceptor_actor, std::string> {
-      if (auto why = line->why_not())
+      if (auto why = connection->why_not())
         return fmt::format("the broker cannot be reached: {}", *why);
       return side->way_to(name);
     };
@@ -211,12 +211,12 @@ run_outcome drive_by_broker(const scenario_definition& s,
       side->tell(*from, message);
   };
   const auto open = [&](const world_actors& actors) {
-    line->open(
+    connection->open(
         [side, ear = ear_of_vehicles(s, actors, here, *time)](const auto& x) {
           if (const auto* told = std::get_if<actors::wire::broadcast>(&x.what))
             ear->on_message(told->message);
           else
-            side->on_letter(x);
+            side->on_envelope(x);
         },
         [side] { side->lose(); });
   };

@@ -1,7 +1,7 @@
 // A scenario on several hosts that an AMQP broker connects.
 #pragma once
 
-#include "scenario/broker_line.hpp"
+#include "scenario/broker_connection.hpp"
 #include "scenario/hosts.hpp"
 
 namespace sofof::scenario {

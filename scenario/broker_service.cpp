@@ -8,7 +8,7 @@
 #include "network/keys/nonce.hpp"
 #include "network/tls/tls_acceptor.hpp"
 #include "recording/exposition.hpp"
-#include "scenario/broker_line.hpp"
+#include "scenario/broker_connection.hpp"
 #include "scenario/host_parts.hpp"
 #include "scenario/secure_listener.hpp"
 

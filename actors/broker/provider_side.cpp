@@ -1,4 +1,4 @@
-// Letters to those that stand for processes of vehicles.
+// Envelopes to those that stand for processes of vehicles.
 #include "actors/broker/provider_side.hpp"
 
 #include "actors/broker/vehicle_process.hpp"
@@ -62,7 +62,7 @@ private:
 provider_side::provider_side(caf::actor_system& sys, provider_side_setup setup)
     : shared_{std::make_shared<shared>(sys, std::move(setup))} {}
 
-void provider_side::on_letter(const wire::letter& x) const {
+void provider_side::on_envelope(const wire::envelope& x) const {
   if (const auto* connect_request =
           std::get_if<wire::connect_request>(&x.what)) {
     if (connect_request->provider != shared_->setup.name
@@ -75,7 +75,7 @@ void provider_side::on_letter(const wire::letter& x) const {
         || shared_->waiting_of(x.user) >= most)
       return;
     auto& process = shared_->processes[x.link];
-    process.speaker = x.from;
+    process.sender = x.from;
     process.user = x.user;
     process.stands_for_it =
         spawn_process(shared_, x.link, x.from, *connect_request);

@@ -18,7 +18,7 @@ struct provider_side_setup {
   std::string name;       ///< Of the provider.
   station_id station = 0; ///< Its own.
   std::string user;       ///< As whom it sends.
-  std::function<void(const wire::letter&)> send;
+  std::function<void(const wire::envelope&)> send;
   /// Hears ITS messages for everybody of stations that no process has
   /// introduced.
   std::function<void(messages::its_pdu)> on_foreign = [](auto&&) {};
@@ -26,15 +26,15 @@ struct provider_side_setup {
 
 /// Stands for processes of vehicles: each that asks is an actor here, which
 /// introduces itself at the acceptor as a peer on another host does, and sends
-/// letters. A letter is a process's own if it is for a station that it was let
-/// in with. What an endpoint sends all the time is acknowledged as soon as it
-/// is with the broker's client.
+/// envelopes. An envelope is a process's own if it is for a station that it was
+/// let in with. What an endpoint sends all the time is acknowledged as soon as
+/// it is with the broker's client.
 class provider_side {
 public:
   provider_side(caf::actor_system& sys, provider_side_setup setup);
 
-  /// A letter has come.
-  void on_letter(const wire::letter& x) const;
+  /// An envelope has come.
+  void on_envelope(const wire::envelope& x) const;
 
   /// The broker is lost: all processes are.
   void lose() const;

@@ -1,4 +1,4 @@
-// It introduces itself as a peer on another host does, and sends letters.
+// It introduces itself as a peer on another host does, and sends envelopes.
 #include "actors/broker/vehicle_process.hpp"
 
 #include "base/protocol.hpp"
@@ -17,7 +17,7 @@ struct process_state {
   process_actor::stateful_pointer<process_state> self = nullptr;
   std::shared_ptr<provider_side::shared> shared;
   std::int64_t link = 0;
-  station_id speaker = 0;
+  station_id sender = 0;
   messages::handshake_actor handshake;
   messages::provider_endpoint_actor endpoint;
 
@@ -25,7 +25,7 @@ struct process_state {
     if (!shared)
       return;
     if (endpoint)
-      send(speaker, wire::closing{});
+      send(sender, wire::closing{});
     shared->forget(link);
   }
 
@@ -38,8 +38,8 @@ struct process_state {
   }
 
   void refuse(const caf::error& error) {
-    send(speaker, wire::refusal{sentence_of(error),
-                                error == caf::sec::invalid_argument});
+    send(sender, wire::refusal{sentence_of(error),
+                               error == caf::sec::invalid_argument});
     self->quit();
   }
 
@@ -56,7 +56,7 @@ struct process_state {
         .then(
             [this](std::uint32_t ours, std::uint64_t our_types,
                    const std::string& nonce, const caf::strong_actor_ptr& in) {
-              send(speaker, wire::challenge{ours, our_types, nonce});
+              send(sender, wire::challenge{ours, our_types, nonce});
               handshake = caf::actor_cast<messages::handshake_actor>(in);
               if (handshake)
                 self->monitor(handshake);
@@ -78,7 +78,7 @@ struct process_state {
               endpoint = by;
               self->monitor(endpoint);
               shared->let_in(link, hello, endpoint);
-              send(speaker, welcome);
+              send(sender, welcome);
             },
             [this](const caf::error& error) { refuse(error); });
   }
@@ -93,13 +93,13 @@ struct process_state {
 process_actor::behavior_type
 process_of_vehicles(process_actor::stateful_pointer<process_state> self,
                     std::shared_ptr<provider_side::shared> shared,
-                    std::int64_t link, station_id speaker,
+                    std::int64_t link, station_id sender,
                     const wire::connect_request& connect_request) {
   auto& s = self->state;
   s.self = self;
   s.shared = std::move(shared);
   s.link = link;
-  s.speaker = speaker;
+  s.sender = sender;
   self->set_down_handler([self](const caf::down_msg&) { self->quit(); });
   s.connect_request(connect_request.protocol, connect_request.types);
   return {
@@ -117,10 +117,10 @@ process_of_vehicles(process_actor::stateful_pointer<process_state> self,
         self->state.send(x.session.station, x);
       },
       [self](const messages::ping& x) {
-        self->state.send(self->state.speaker, x);
+        self->state.send(self->state.sender, x);
       },
       [self](const messages::pong& x) {
-        self->state.send(self->state.speaker, x);
+        self->state.send(self->state.sender, x);
       },
       [](const messages::stream_id&) {}, // the vehicles' side does so itself
       [self](const messages::peer_hello& x) { self->state.on_hello(x); },
@@ -130,10 +130,10 @@ process_of_vehicles(process_actor::stateful_pointer<process_state> self,
 } // namespace
 
 process_actor spawn_process(std::shared_ptr<provider_side::shared> shared,
-                            std::int64_t link, station_id speaker,
+                            std::int64_t link, station_id sender,
                             const wire::connect_request& connect_request) {
   auto& sys = shared->sys;
-  return sys.spawn(process_of_vehicles, std::move(shared), link, speaker,
+  return sys.spawn(process_of_vehicles, std::move(shared), link, sender,
                    connect_request);
 }
 

@@ -16,7 +16,7 @@
 
 namespace sofof::actors {
 
-/// Stands for the vehicles of one process. Their hello comes from a letter.
+/// Stands for the vehicles of one process. Their hello comes from an envelope.
 using process_actor = messages::vehicle_endpoint_actor::extend<
     messages::reacts_to<messages::peer_hello>>;
 
@@ -24,14 +24,14 @@ using process_actor = messages::vehicle_endpoint_actor::extend<
 struct vehicle_process {
   process_actor stands_for_it;
   messages::provider_endpoint_actor endpoint; ///< Null before it is let in.
-  station_id speaker = 0; ///< Whose station it asked as, and
-  std::string user;       ///< as whom; all its letters are of this user.
+  station_id sender = 0; ///< Whose station it asked as, and
+  std::string user;      ///< as whom; all its envelopes are of this user.
   /// It was let in with these; null before.
   std::shared_ptr<const std::set<station_id>> stations;
 
-  /// @returns whether a letter in its name may be for this station.
+  /// @returns whether an envelope in its name may be for this station.
   bool is_of(station_id x) const {
-    return x == speaker || (stations && stations->contains(x));
+    return x == sender || (stations && stations->contains(x));
   }
 };
 
@@ -87,9 +87,9 @@ struct provider_side::shared {
 };
 
 /// Spawns what stands for a process that asks to connect.
-/// @param speaker  Whose station it asks as.
+/// @param sender  Whose station it asks as.
 process_actor spawn_process(std::shared_ptr<provider_side::shared> shared,
-                            std::int64_t link, station_id speaker,
+                            std::int64_t link, station_id sender,
                             const wire::connect_request& connect_request);
 
 } // namespace sofof::actors

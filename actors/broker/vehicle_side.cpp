@@ -1,7 +1,7 @@
-// Letters to those that stand for providers.
+// Envelopes to those that stand for providers.
 #include "actors/broker/vehicle_side.hpp"
 
-#include "actors/broker/way_to_provider.hpp"
+#include "actors/broker/brokered_provider.hpp"
 
 #include <caf/exit_reason.hpp>
 #include <caf/send.hpp>
@@ -13,25 +13,26 @@ namespace sofof::actors {
 
 namespace {
 
-/// Tells an open way or its endpoint what a provider has sent.
+/// Tells an open proxy or its endpoint what a provider has sent.
 class delivery_to_vehicles {
 public:
-  /// @param way  Lives.
-  delivery_to_vehicles(const wire::letter& from, way_actor way,
+  /// @param proxy  Lives.
+  delivery_to_vehicles(const wire::envelope& from,
+                       brokered_provider_actor proxy,
                        const messages::vehicle_endpoint_actor& endpoint)
-      : from_{from}, way_{std::move(way)}, endpoint_{endpoint} {}
+      : from_{from}, proxy_{std::move(proxy)}, endpoint_{endpoint} {}
 
   void operator()(const wire::challenge& x) const {
-    caf::anon_send(way_, x.protocol, x.types, x.nonce);
+    caf::anon_send(proxy_, x.protocol, x.types, x.nonce);
   }
   void operator()(const messages::peer_welcome& x) const {
-    caf::anon_send(way_, x, from_.from.value());
+    caf::anon_send(proxy_, x, from_.from.value());
   }
   void operator()(const wire::refusal& x) const {
-    caf::anon_send(way_, x.why, x.for_ever);
+    caf::anon_send(proxy_, x.why, x.for_ever);
   }
   void operator()(const wire::closing&) const {
-    caf::anon_send_exit(way_, caf::exit_reason::remote_link_unreachable);
+    caf::anon_send_exit(proxy_, caf::exit_reason::remote_link_unreachable);
   }
   void operator()(const wire::offer& x) const {
     if (from_.to)
@@ -53,11 +54,11 @@ private:
   template <class... Ts>
   void tell(const Ts&... xs) const {
     if (endpoint_)
-      caf::send_as(way_, endpoint_, xs...);
+      caf::send_as(proxy_, endpoint_, xs...);
   }
 
-  const wire::letter& from_;
-  way_actor way_;
+  const wire::envelope& from_;
+  brokered_provider_actor proxy_;
   const messages::vehicle_endpoint_actor& endpoint_;
 };
 
@@ -68,7 +69,7 @@ vehicle_side::vehicle_side(caf::actor_system& sys, vehicle_side_setup setup)
 
 messages::acceptor_actor
 vehicle_side::way_to(const std::string& provider) const {
-  return spawn_way(shared_, shared_->setup.draw_link(), provider);
+  return spawn_brokered_provider(shared_, shared_->setup.draw_link(), provider);
 }
 
 void vehicle_side::tell(station_id from,
@@ -76,20 +77,20 @@ void vehicle_side::tell(station_id from,
   shared_->tell(from, message);
 }
 
-void vehicle_side::on_letter(const wire::letter& x) const {
+void vehicle_side::on_envelope(const wire::envelope& x) const {
   const auto to = shared_->find(x.link);
   const auto& is_sent_by = shared_->setup.is_sent_by;
   if (!to || (is_sent_by && !is_sent_by(x.user, to->provider)))
     return;
-  if (const auto way = caf::actor_cast<way_actor>(to->way))
-    std::visit(delivery_to_vehicles{x, way, to->endpoint}, x.what);
+  if (const auto proxy = caf::actor_cast<brokered_provider_actor>(to->proxy))
+    std::visit(delivery_to_vehicles{x, proxy, to->endpoint}, x.what);
 }
 
 void vehicle_side::lose() const {
   const std::lock_guard lock{shared_->mutex};
-  for (const auto& [link, to] : shared_->ways)
-    if (const auto way = caf::actor_cast<way_actor>(to.way))
-      caf::anon_send_exit(way, caf::exit_reason::remote_link_unreachable);
+  for (const auto& [link, to] : shared_->proxies)
+    if (const auto proxy = caf::actor_cast<brokered_provider_actor>(to.proxy))
+      caf::anon_send_exit(proxy, caf::exit_reason::remote_link_unreachable);
 }
 
 } // namespace sofof::actors

@@ -130,7 +130,8 @@ std::optional<messages::its_pdu> its_in(const network::amqp::message& m,
 
 } // namespace
 
-network::amqp::message to_amqp(const letter& x, std::chrono::milliseconds now) {
+network::amqp::message to_amqp(const envelope& x,
+                               std::chrono::milliseconds now) {
   network::amqp::message m;
   m.user = x.user;
   m.created = now;
@@ -158,17 +159,17 @@ network::amqp::message to_amqp(const letter& x, std::chrono::milliseconds now) {
   return m;
 }
 
-std::optional<letter> from_amqp(const network::amqp::message& m) {
+std::optional<envelope> from_amqp(const network::amqp::message& m) {
   const auto* from = find<std::uint32_t>(m.all, "station_id");
   if (!from) {
     auto its = c_roads_message(m);
     if (!its)
       return std::nullopt;
     const auto station = its->station().value_or(0);
-    return letter{
+    return envelope{
         .user = m.user, .from = station, .what = broadcast{std::move(*its)}};
   }
-  letter x{.user = m.user, .from = *from};
+  envelope x{.user = m.user, .from = *from};
   if (const auto* to = find<std::uint32_t>(m.all, "destination_station_id"))
     x.to = *to;
   if (const auto* link = find<std::int64_t>(m.all, "sofof_link"))

@@ -80,7 +80,7 @@ using content =
                  messages::service_result>;
 
 /// A message and who speaks to whom.
-struct letter {
+struct envelope {
   std::string user;    ///< Who it says has sent it.
   station_id from = 0; ///< Whose message it is; of a provider or a vehicle.
   std::optional<station_id> to{}; ///< Nothing: for everybody.
@@ -89,19 +89,20 @@ struct letter {
   content what{};
 };
 
-/// Writes a letter for a broker. An ITS message, also one that an input or a
+/// Writes an envelope for a broker. An ITS message, also one that an input or a
 /// result holds, is the body of a message as uulm-mrm/v2x_etsi_asn1 has them
 /// (subject, mid, station_id, destination_station_id, ttl, creation time).
 /// What SOFOF needs beside it is in properties of its own, and messages without
 /// an ITS message have the subject "sofof" and no mid, so that others ignore
 /// them.
 /// @param now  Time of day, since 1970.
-network::amqp::message to_amqp(const letter& x, std::chrono::milliseconds now);
+network::amqp::message to_amqp(const envelope& x,
+                               std::chrono::milliseconds now);
 
 /// Reads one, from anybody: also an ITS message with the properties of C-ROADS
 /// (c_roads.hpp) alone.
 /// @returns nothing for what is no message of these, or not whole.
-std::optional<letter> from_amqp(const network::amqp::message& m);
+std::optional<envelope> from_amqp(const network::amqp::message& m);
 
 /// @returns the selector of what a process of these stations should get: what
 /// is for them, and MCMs for everybody.

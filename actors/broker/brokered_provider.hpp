@@ -1,4 +1,4 @@
-// A way to one provider over a broker.
+// What stands for a provider that is reached over a broker.
 #pragma once
 
 #include "actors/broker/vehicle_side.hpp"
@@ -18,7 +18,7 @@
 namespace sofof::actors {
 
 /// What stands for a provider.
-using way_actor =
+using brokered_provider_actor =
     messages::acceptor_actor::extend_with<messages::handshake_actor>::
         extend_with<messages::provider_endpoint_actor>::extend<
             // The provider's answers: an challenge, a welcome and its station,
@@ -27,14 +27,14 @@ using way_actor =
             messages::reacts_to<messages::peer_welcome, station_id::rep>,
             messages::reacts_to<std::string, bool>>;
 
-/// A way that is open.
-struct open_way {
+/// A proxy that is connected.
+struct connected_proxy {
   std::string provider;
-  caf::weak_actor_ptr way;
+  caf::weak_actor_ptr proxy;
   messages::vehicle_endpoint_actor endpoint; ///< Null before the hello.
 };
 
-/// What the ways of a process have in common. Any thread may call its
+/// What the proxies of a process have in common. Any thread may call its
 /// functions.
 struct vehicle_side::shared {
   shared(caf::actor_system& s, vehicle_side_setup with)
@@ -43,7 +43,7 @@ struct vehicle_side::shared {
   caf::actor_system& sys;
   const vehicle_side_setup setup;
   std::mutex mutex; // of the following
-  std::map<std::int64_t, open_way> ways;
+  std::map<std::int64_t, connected_proxy> proxies;
   std::map<std::pair<station_id, std::byte>, std::vector<std::byte>> latest;
 
   /// Sends a CAM, CPM or MCM that is for everybody, if it is not the one of
@@ -62,15 +62,16 @@ struct vehicle_side::shared {
         {.user = setup.user, .from = from, .what = wire::broadcast{message}});
   }
 
-  std::optional<open_way> find(std::int64_t link) {
+  std::optional<connected_proxy> find(std::int64_t link) {
     const std::lock_guard lock{mutex};
-    const auto at = ways.find(link);
-    return at == ways.end() ? std::nullopt : std::optional{at->second};
+    const auto at = proxies.find(link);
+    return at == proxies.end() ? std::nullopt : std::optional{at->second};
   }
 };
 
 /// Spawns what stands for the provider of this name, known by this link.
-way_actor spawn_way(std::shared_ptr<vehicle_side::shared> shared,
-                    std::int64_t link, std::string provider);
+brokered_provider_actor
+spawn_brokered_provider(std::shared_ptr<vehicle_side::shared> shared,
+                        std::int64_t link, std::string provider);
 
 } // namespace sofof::actors

@@ -1,5 +1,5 @@
 // An AMQP client, before which may be a tunnel.
-#include "scenario/broker_line.hpp"
+#include "scenario/broker_connection.hpp"
 
 #include "actors/broker/c_roads.hpp"
 #include "actors/runtime/time.hpp"
@@ -73,10 +73,9 @@ std::string print_broker(const broker_url& url) {
                      network::print_address(url.at), url.address);
 }
 
-broker_line::broker_line(broker_options what,
-                         std::shared_ptr<network::key_ring> keys, runtime& time,
-                         std::string selector,
-                         std::function<void(const std::string&)> on_news)
+broker_connection::broker_connection(
+    broker_options what, std::shared_ptr<network::key_ring> keys, runtime& time,
+    std::string selector, std::function<void(const std::string&)> on_news)
     : what_{std::move(what)}, keys_{std::move(keys)}, now_{[&sys =
                                                                 time.system()] {
         return actors::now(sys);
@@ -94,9 +93,10 @@ broker_line::broker_line(broker_options what,
                                   "no effect; use amqps://",
                                   print_broker(url)));
   if (!what_.publisher.empty() && !actors::wire::is_publisher(what_.publisher))
-    throw input_error(fmt::format("--c-roads '{}' is no publisher: two letters "
-                                  "of a country and digits, like DE12345",
-                                  what_.publisher));
+    throw input_error(
+        fmt::format("--c-roads '{}' is no publisher: two envelopes "
+                    "of a country and digits, like DE12345",
+                    what_.publisher));
   if (!url.secured && !url.user.empty())
     throw input_error("--broker: a password is sent over amqps:// only");
   if (!keys_)
@@ -115,10 +115,10 @@ broker_line::broker_line(broker_options what,
   });
 }
 
-void broker_line::open(
-    std::function<void(const actors::wire::letter&)> on_letter,
+void broker_connection::open(
+    std::function<void(const actors::wire::envelope&)> on_envelope,
     std::function<void()> on_lost) {
-  on_letter_ = std::move(on_letter);
+  on_envelope_ = std::move(on_envelope);
   network::amqp::client_options how;
   how.where = [this] {
     return tunnel_ ? network::network_address{"127.0.0.1", tunnel_->port()}
@@ -164,27 +164,27 @@ void broker_line::open(
   client_.load()->start();
 }
 
-void broker_line::on_message(const network::amqp::message& m) {
-  const auto letter = actors::wire::from_amqp(m);
-  if (!letter)
+void broker_connection::on_message(const network::amqp::message& m) {
+  const auto envelope = actors::wire::from_amqp(m);
+  if (!envelope)
     return;
   const auto now = now_();
-  const auto sender = static_cast<std::uint64_t>(letter->from.value());
+  const auto sender = static_cast<std::uint64_t>(envelope->from.value());
   const auto ttl =
       m.ttl.count() > 0 ? std::min(m.ttl, longest_ttl) : longest_ttl;
   const auto is_dated = messages::is_time_of_day(m.created.count());
   if (is_dated
       && fresh_.is_fresh(sender, time_of_day(now) - m.created, ttl, now))
-    on_letter_(*letter);
+    on_envelope_(*envelope);
   else
     ++too_old_;
 }
 
-std::chrono::milliseconds broker_line::time_of_day(time_point now) const {
+std::chrono::milliseconds broker_connection::time_of_day(time_point now) const {
   return std::chrono::floor<std::chrono::milliseconds>(clock_.unix_time(now));
 }
 
-void broker_line::send(const actors::wire::letter& x) {
+void broker_connection::send(const actors::wire::envelope& x) {
   const auto client = client_.load();
   if (!client)
     return;
@@ -194,7 +194,7 @@ void broker_line::send(const actors::wire::letter& x) {
   client->send(std::move(m));
 }
 
-void broker_line::write_figures(recording::exposition& to) const {
+void broker_connection::write_figures(recording::exposition& to) const {
   const auto counter = [&to](std::string_view name, std::string_view help,
                              std::uint64_t value) {
     to.family(name, recording::exposition::kind::counter, help);
@@ -203,31 +203,31 @@ void broker_line::write_figures(recording::exposition& to) const {
   const auto client = client_.load();
   const auto counts =
       client ? client->counts() : network::amqp::client_counts{};
-  counter("sofof_broker_line_sent", "Messages sent to the broker.",
+  counter("sofof_broker_client_sent", "Messages sent to the broker.",
           counts.sent);
-  counter("sofof_broker_line_dropped",
+  counter("sofof_broker_client_dropped",
           "Messages not sent, for want of credit or connection.",
           counts.dropped);
-  counter("sofof_broker_line_received", "Messages that the broker sent.",
+  counter("sofof_broker_client_received", "Messages that the broker sent.",
           counts.received);
-  counter("sofof_broker_line_old",
+  counter("sofof_broker_client_old",
           "Messages received that were older than their ttl.", too_old_);
 }
 
-std::string broker_line::user() const {
+std::string broker_connection::user() const {
   return keys_ ? network::describe(keys_->now().identity()) : std::string{};
 }
 
-std::optional<std::string> broker_line::why_not() const {
+std::optional<std::string> broker_connection::why_not() const {
   std::unique_lock lock{mutex_};
   tried_.wait_for(lock, first_patience, [this] { return was_tried_; });
   return why_not_.empty() ? std::nullopt : std::optional{why_not_};
 }
 
-void broker_line::close() {
+void broker_connection::close() {
   if (const auto client = client_.load())
     client->stop();
-  on_letter_ = {};
+  on_envelope_ = {};
   if (tunnel_)
     tunnel_->hang_up();
 }

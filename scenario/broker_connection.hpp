@@ -49,7 +49,7 @@ struct broker_options {
 inline constexpr std::string_view broker_name = "broker";
 
 /// A connection to a broker, by TLS if it is secured.
-class broker_line {
+class broker_connection {
 public:
   /// @param keys      Null where it is not secured; outlives this.
   /// @param time      Outlives this.
@@ -57,19 +57,20 @@ public:
   /// @param on_news   Called on any thread with sentences about the
   ///                  connection.
   /// @throws input_error when the URL and the keys do not fit.
-  broker_line(broker_options what, std::shared_ptr<network::key_ring> keys,
-              runtime& time, std::string selector,
-              std::function<void(const std::string&)> on_news);
+  broker_connection(broker_options what,
+                    std::shared_ptr<network::key_ring> keys, runtime& time,
+                    std::string selector,
+                    std::function<void(const std::string&)> on_news);
 
   /// Connects, from now on.
-  /// @param on_letter  Called for each, on a thread of the line's.
+  /// @param on_envelope  Called for each, on a thread of the connection's.
   /// @param on_lost    Likewise when the connection is lost.
   /// @throws network_error.
-  void open(std::function<void(const actors::wire::letter&)> on_letter,
+  void open(std::function<void(const actors::wire::envelope&)> on_envelope,
             std::function<void()> on_lost);
 
   /// Any thread; nothing is sent before it is open and connected.
-  void send(const actors::wire::letter& x);
+  void send(const actors::wire::envelope& x);
 
   /// Adds how many messages crossed and did not; on any thread.
   void write_figures(recording::exposition& to) const;
@@ -94,7 +95,7 @@ private:
   messages::etsi::its_clock clock_;
   std::string selector_;
   std::function<void(const std::string&)> on_news_;
-  std::function<void(const actors::wire::letter&)> on_letter_;
+  std::function<void(const actors::wire::envelope&)> on_envelope_;
   network::freshness fresh_;
   std::atomic<std::uint64_t> too_old_ = 0;
   mutable std::mutex mutex_;

@@ -1,6 +1,6 @@
 // A provider's acceptor, handshake and endpoint in one actor, which sends
-// letters.
-#include "actors/broker/way_to_provider.hpp"
+// envelopes.
+#include "actors/broker/brokered_provider.hpp"
 
 #include <caf/send.hpp>
 #include <caf/stateful_actor.hpp>
@@ -11,11 +11,11 @@ namespace sofof::actors {
 
 namespace {
 
-struct way_state {
-  static inline const char* name = "way_to_provider";
+struct proxy_state {
+  static inline const char* name = "brokered_provider";
   using shared_ptr = std::shared_ptr<vehicle_side::shared>;
 
-  way_actor::stateful_pointer<way_state> self = nullptr;
+  brokered_provider_actor::stateful_pointer<proxy_state> self = nullptr;
   shared_ptr shared;
   std::int64_t link = 0;
   std::string provider;
@@ -28,13 +28,13 @@ struct way_state {
                               messages::provider_endpoint_actor>
       welcomed;
 
-  ~way_state() {
+  ~proxy_state() {
     if (!shared)
       return;
     if (endpoint)
       send(wire::closing{});
     const std::lock_guard lock{shared->mutex};
-    shared->ways.erase(link);
+    shared->proxies.erase(link);
   }
 
   void send(wire::content what) const {
@@ -68,7 +68,7 @@ struct way_state {
     endpoint = from;
     {
       const std::lock_guard lock{shared->mutex};
-      shared->ways[link].endpoint = from;
+      shared->proxies[link].endpoint = from;
     }
     welcomed = self->make_response_promise<messages::peer_welcome,
                                            messages::provider_endpoint_actor>();
@@ -107,9 +107,10 @@ struct way_state {
   }
 };
 
-way_actor::behavior_type way(way_actor::stateful_pointer<way_state> self,
-                             std::shared_ptr<vehicle_side::shared> shared,
-                             std::int64_t link, std::string provider) {
+brokered_provider_actor::behavior_type
+brokered_provider(brokered_provider_actor::stateful_pointer<proxy_state> self,
+                  std::shared_ptr<vehicle_side::shared> shared,
+                  std::int64_t link, std::string provider) {
   auto& s = self->state;
   s.self = self;
   s.shared = std::move(shared);
@@ -117,8 +118,9 @@ way_actor::behavior_type way(way_actor::stateful_pointer<way_state> self,
   s.provider = std::move(provider);
   {
     const std::lock_guard lock{s.shared->mutex};
-    s.shared->ways.emplace(
-        link, open_way{s.provider, caf::weak_actor_ptr{self->ctrl()}, {}});
+    s.shared->proxies.emplace(
+        link,
+        connected_proxy{s.provider, caf::weak_actor_ptr{self->ctrl()}, {}});
   }
   self->set_down_handler([self](const caf::down_msg&) { self->quit(); });
   return {
@@ -155,10 +157,12 @@ way_actor::behavior_type way(way_actor::stateful_pointer<way_state> self,
 
 } // namespace
 
-way_actor spawn_way(std::shared_ptr<vehicle_side::shared> shared,
-                    std::int64_t link, std::string provider) {
+brokered_provider_actor
+spawn_brokered_provider(std::shared_ptr<vehicle_side::shared> shared,
+                        std::int64_t link, std::string provider) {
   auto& sys = shared->sys;
-  return sys.spawn(way, std::move(shared), link, std::move(provider));
+  return sys.spawn(brokered_provider, std::move(shared), link,
+                   std::move(provider));
 }
 
 } // namespace sofof::actors
