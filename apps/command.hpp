@@ -12,6 +12,7 @@ void add_provide(CLI::App& app, int& exit_code);
 void add_drive(CLI::App& app, int& exit_code);
 void add_load_test(CLI::App& app, int& exit_code);
 void add_broker(CLI::App& app, int& exit_code);
+void add_sil(CLI::App& app, int& exit_code);
 void add_health(CLI::App& app, int& exit_code);
 void add_sweep(CLI::App& app, int& exit_code);
 void add_reproduce(CLI::App& app, int& exit_code);

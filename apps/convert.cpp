@@ -21,7 +21,8 @@ void add_convert(CLI::App& app, int&) {
       ->type_name(" ");
   command
       ->add_option("-o", args->out,
-                   "Where to: FILE.mcap, FILE.fcd.xml or FILE.geojson")
+                   "Where to: FILE.mcap, FILE.fcd.xml, FILE.geojson or "
+                   "FILE.latencies.csv")
       ->type_name("FILE")
       ->required();
   command->footer("Example:\n  sofof convert results/ulm_lehr-1 -o run.mcap");

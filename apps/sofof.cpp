@@ -75,6 +75,7 @@ int obey(int argc, char** argv) {
   sofof::apps::add_provide(app, exit_code);
   sofof::apps::add_drive(app, exit_code);
   sofof::apps::add_broker(app, exit_code);
+  sofof::apps::add_sil(app, exit_code);
   sofof::apps::add_load_test(app, exit_code);
   sofof::apps::add_health(app, exit_code);
   sofof::apps::add_reproduce(app, exit_code);

@@ -77,15 +77,10 @@ duration channel_draws::drawn_delay(const message_id& m,
   const auto& p = *profile_;
   const auto extra = p.more_delay + spike(p.spikes, of(m), m.number)
                      + p.vehicle_host.draw(of(m), m.number);
-  if (!p.replays)
-    return extra
-           + from_seconds(drift(sent) * network_draw_s(p, of(m), m.number));
-  if (m.to == direction::up)
-    return extra;
-  return extra
-         + from_seconds(
-             drift(sent)
-             * replayed_delay_s(p.trace, trace_start_s_ + to_seconds(sent)));
+  auto network_s = network_draw_s(p, of(m), m.number);
+  if (p.replays && m.to == direction::down)
+    network_s += replayed_delay_s(p.trace, trace_start_s_ + to_seconds(sent));
+  return extra + from_seconds(drift(sent) * network_s);
 }
 
 // Between values that are drawn for the ends of each period the weights turn

@@ -2,6 +2,7 @@
 #include "channel/channel_profile.hpp"
 
 #include "base/options/option_helpers.hpp"
+#include "channel/measured_over_amqp.hpp"
 #include "channel/provider_compute.hpp"
 
 #include <array>
@@ -88,6 +89,23 @@ channel_profile trace() {
   return p;
 }
 
+// Ours: what was measured over a broker on one machine, and no radio.
+channel_profile amqp_loopback() {
+  channel_profile p;
+  p.replays = true;
+  p.trace = measured_over_amqp();
+  return p;
+}
+
+// The same with the radio of `paper_5g`.
+channel_profile amqp_lab() {
+  auto p = amqp_loopback();
+  const auto radio = paper_5g();
+  p.network = radio.network;
+  p.airtime = radio.airtime;
+  return p;
+}
+
 struct entry {
   std::string_view name;
   channel_profile (*make)();
@@ -102,6 +120,8 @@ constexpr std::array known_profiles{
     entry{"cicv5g_n8", cicv5g_n8},
     entry{"cicv5g_n78", cicv5g_n78},
     entry{"spiky_5g", spiky_5g},
+    entry{"amqp_loopback", amqp_loopback},
+    entry{"amqp_lab", amqp_lab},
     entry{"trace", trace},
 };
 

@@ -163,7 +163,8 @@ struct channel_profile {
   std::vector<network_area> areas;     ///< `area` in files.
 
   /// Replays `trace`: a result takes the measured round trip, messages to the
-  /// provider take no time, so that the loop takes what was measured.
+  /// provider take no time, so that the loop takes what was measured; both on
+  /// top of the above.
   bool replays = false;
   std::vector<trace_sample> trace;
   /// Each vehicle starts at its own place in the trace, else all at its begin.

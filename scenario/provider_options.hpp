@@ -159,7 +159,8 @@ struct provider_options {
         if (!network)
           network.emplace();
         network->visit_options(t);
-        if (network->profile.replays)
+        if (network->profile.replays
+            && (network->profile.trace.empty() || !network->trace.empty()))
           t.refuse("profile", "replays a file, which only [network] can.");
       });
     if (s.has("compute", compute.has_value()))

@@ -104,7 +104,7 @@ void network_options::visit_options(option_visitor& s) {
       s.refuse("trace", "has no effect with this profile; use \"trace\".");
     if (trace.empty())
       s.refuse("trace", "must name a file.");
-  } else if (profile.replays) {
+  } else if (profile.replays && profile.trace.empty()) {
     s.refuse("profile", "needs a file to replay: add trace = \"FILE\".");
   }
   profile.visit_options(s);

@@ -24,7 +24,8 @@ struct format {
 
 constexpr format formats[]{{".mcap", write_mcap},
                            {".fcd.xml", write_fcd},
-                           {".geojson", write_geojson}};
+                           {".geojson", write_geojson},
+                           {".latencies.csv", write_latencies}};
 
 const format& format_of(const fs::path& file) {
   const auto name = file.filename().string();
@@ -32,7 +33,8 @@ const format& format_of(const fs::path& file) {
     if (name.ends_with(one.ending) && name.size() > one.ending.size())
       return one;
   throw input_error{fmt::format("{}: the ending says the format; choose a name "
-                                "that ends with .mcap, .fcd.xml or .geojson.",
+                                "that ends with .mcap, .fcd.xml, .geojson or "
+                                ".latencies.csv.",
                                 file.string())};
 }
 

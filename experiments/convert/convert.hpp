@@ -9,6 +9,7 @@ namespace sofof::experiments::convert {
 ///   .mcap      for Foxglove and Lichtblick
 ///   .fcd.xml   floating car data, as SUMO writes and reads them
 ///   .geojson   lanes, areas and ways on Earth (RFC 7946)
+///   .latencies.csv  a trace of its latencies, for other runs to replay
 /// Reads and writes row by row. The file is there once it is complete.
 /// @throws input_error when the ending is another one, the folder broken, or
 /// the file cannot be written.

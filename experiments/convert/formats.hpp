@@ -23,4 +23,8 @@ void write_fcd(const recorded_drive& drive, const sink& put);
 /// planned on one side.
 void write_geojson(const recorded_drive& drive, const sink& put);
 
+/// When results of trajectory planning came, s, and after which latency, ms: a
+/// trace as a channel replays it (`network.trace`).
+void write_latencies(const recorded_drive& drive, const sink& put);
+
 } // namespace sofof::experiments::convert

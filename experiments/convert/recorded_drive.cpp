@@ -32,12 +32,12 @@ const fs::path& check_tracks(const fs::path& file) {
   return file;
 }
 
+} // namespace
+
 csv_reader::ending ending_of(const fs::path& folder) {
   return fs::exists(folder / "summary.json") ? csv_reader::ending::whole
                                              : csv_reader::ending::killed;
 }
-
-} // namespace
 
 std::uint64_t recorded_drive::unix_ns(double t_s) const {
   constexpr double ns_per_s = 1e9;

@@ -27,6 +27,9 @@ struct recorded_drive {
 /// @throws input_error when it is no results folder, or broken.
 recorded_drive open_drive(const std::filesystem::path& folder);
 
+/// @returns how the files of a results folder may end.
+csv_reader::ending ending_of(const std::filesystem::path& folder);
+
 /// Where a car was.
 struct track_row {
   double t_s = 0;

@@ -42,9 +42,9 @@ messages::service_result result_with(messages::payload what) {
   return x;
 }
 
-std::vector<letter> letters() {
+std::vector<envelope> envelopes() {
   const std::string user = "stations 101-103";
-  std::vector<letter> all;
+  std::vector<envelope> all;
   const auto add = [&](content what) {
     all.push_back({user, 101, station_id{900'000'001}, 4711, std::move(what)});
   };
@@ -75,7 +75,7 @@ std::vector<letter> letters() {
 }
 
 /// Contents are compared as they are written.
-void check_same(const letter& a, const letter& b) {
+void check_same(const envelope& a, const envelope& b) {
   CHECK(a.user == b.user);
   CHECK(a.from == b.from);
   CHECK(a.to == b.to);
@@ -84,8 +84,8 @@ void check_same(const letter& a, const letter& b) {
   CHECK((to_amqp(a, some_day) == to_amqp(b, some_day)));
 }
 
-TEST_CASE("every letter comes out as it went in") {
-  for (const auto& x : letters()) {
+TEST_CASE("every envelope comes out as it went in") {
+  for (const auto& x : envelopes()) {
     CAPTURE(x.what.index());
     const auto read = from_amqp(to_amqp(x, some_day));
     REQUIRE(read);
@@ -128,7 +128,7 @@ TEST_CASE("an input or a result of planning is an MCM to everybody else, of "
 }
 
 TEST_CASE("messages of SOFOF alone have no mid, so that others ignore them") {
-  for (const auto& x : letters()) {
+  for (const auto& x : envelopes()) {
     const auto m = to_amqp(x, some_day);
     CHECK((m.subject == "sofof") == !m.all.contains("mid"));
   }
@@ -158,7 +158,7 @@ TEST_CASE("octets that were changed or cut off are read or not, and no more") {
     return static_cast<std::size_t>(dice.between(0, static_cast<double>(n)));
   };
   int read = 0, not_read = 0;
-  for (const auto& x : letters()) {
+  for (const auto& x : envelopes()) {
     const auto whole = to_amqp(x, some_day);
     for (int i = 0; i < 2000; ++i) {
       auto m = whole;

@@ -272,6 +272,25 @@ TEST_CASE("a trace without samples cannot be replayed") {
   CHECK_THROWS_AS(link_channel(named("trace")), std::invalid_argument);
 }
 
+TEST_CASE("the radio of a laboratory is on top of what its broker takes") {
+  const auto loopback = named("amqp_loopback"), lab = named("amqp_lab"),
+             radio = named("paper_5g");
+  const auto delay = [](const channel_profile& p, direction to,
+                        std::uint64_t k) {
+    const channel_draws draws{std::make_shared<const channel_profile>(p),
+                              random_stream{1, "network"}, 101, 0};
+    return draws.network_delay({to, message_class::result, k},
+                               time_point{50ms * k});
+  };
+  for (std::uint64_t k = 0; k < 100; ++k) {
+    CHECK(delay(loopback, direction::up, k) == 0ms);
+    CHECK(delay(lab, direction::up, k) == delay(radio, direction::up, k));
+    const auto sum =
+        delay(loopback, direction::down, k) + delay(radio, direction::down, k);
+    CHECK(std::chrono::abs(delay(lab, direction::down, k) - sum) <= 2ns);
+  }
+}
+
 TEST_CASE("a profile is found by its name alone") {
   for (const auto name : channel_profile_names())
     CHECK(named(name).name == name);

@@ -44,6 +44,7 @@ TEST_CASE("each channel profile has the computers it was measured with") {
         figures{"paper_sim_stalls", 1, 0, 0},
         figures{"paper_5g", 2, 3e-3, 1e-3}, figures{"cicv5g_n8", 1, 0, 0},
         figures{"cicv5g_n78", 1, 0, 0}, figures{"spiky_5g", 8, 3e-3, 1e-3},
+        figures{"amqp_loopback", 1, 0, 0}, figures{"amqp_lab", 1, 0, 0},
         figures{"trace", 1, 0, 0}}) {
     CAPTURE(x.profile);
     REQUIRE(find_channel_profile(x.profile));
@@ -54,7 +55,7 @@ TEST_CASE("each channel profile has the computers it was measured with") {
     CHECK(std::abs(c.mean_s() - x.mean_s) < 1e-6);
     CHECK(std::abs(c.deviation_s() - x.deviation_s) < 1e-6);
   }
-  CHECK(channel_profile_names().size() == 9);
+  CHECK(channel_profile_names().size() == 11);
 }
 
 TEST_CASE("mean and deviation of computing times are those of the draws") {

@@ -2,6 +2,7 @@
 #include "experiments/convert/convert.hpp"
 
 #include "base/input_error.hpp"
+#include "channel/trace.hpp"
 #include "experiments/convert/mcap_writer.hpp"
 #include "tests/experiments/report_folder.hpp"
 #include "tests/support/contains.hpp"
@@ -192,6 +193,14 @@ TEST_CASE("GeoJSON has each lane and way on Earth") {
   CHECK(kinds["lane"] > 0);
   CHECK(kinds["way"] > 0);
   CHECK(kinds["area"] == 1);
+}
+
+TEST_CASE("latencies are a trace that a channel replays") {
+  const played_folder run;
+  const auto trace = channel::parse_trace(converted(run, "run.latencies.csv"));
+  CHECK(trace.size() == rows_of(run, "cycles.csv") - 1);
+  for (const auto& one : trace)
+    CHECK(one.delay_s > 0);
 }
 
 TEST_CASE(

@@ -121,6 +121,32 @@ TEST_CASE("with keys a broker lets in whom it knows, and no other provider is "
   CHECK(stop(broker.run()).code == 0);
 }
 
+TEST_CASE("one command runs broker, provider and cars, and ends them all") {
+  const workplace at;
+  if (!has_amqp(at))
+    return;
+  const auto end = at.run_sofof(words{"sil", scenario_file, "--quiet", "--out",
+                                      "loop", "--duration", "4s"}
+                                + patient(3));
+  CAPTURE(end.out);
+  CAPTURE(end.err);
+  CHECK(end.code == 0);
+  const auto summary = summary_of(at / "loop/cars");
+  check_safe(summary);
+  CHECK(summary["episodes"] == 3);
+  CHECK(summary_of(at / "loop/provider_mec")["interrupted"] == true);
+  CHECK(contains(read_file(at / "loop/broker.log"), "listens on"));
+  const auto again = at.run_sofof({"sil", scenario_file, "--out", "loop"});
+  CHECK(again.code == 2);
+  CHECK(contains(again.err, "loop"));
+
+  // What it measured is a channel for other runs.
+  CHECK(at.run_sofof({"convert", "loop/cars", "-o", "own.latencies.csv"}).code
+        == 0);
+  at.drive("replayed", {"--duration", "3s", "--set", "network.profile=trace",
+                        "--set", "network.trace=../own.latencies.csv"});
+}
+
 TEST_CASE("what a broker's URL and the keys lack is said before anything "
           "begins") {
   const workplace at;
