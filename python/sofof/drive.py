@@ -17,7 +17,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from . import hand_over, program
-from .policy import PROTOCOL, Ask, Decision, Told, line_of
+from .policy import PROTOCOL, Ask, Decision, line_of
 
 PATIENCE_S = 30  # for a start and for an end; nothing waits for it as a rule
 LEAVE_S = 2  # that the process of the policy may take to exit
@@ -140,9 +140,10 @@ class Drive:
             raise self._error()
         self._send({"sofof": PROTOCOL, "name": "environment", "tells": True})
 
-    def next(self) -> Ask | Told | None:
-        """What comes next; an `Ask` has to be answered. None: the run has come
-        to its end, and `summary` is there.
+    def next(self) -> Ask | dict[str, Any] | None:
+        """What comes next: an `Ask`, which has to be answered; what the run
+        tells, as it came, of which there is much; or None: the run has come to
+        its end, and `summary` is there.
 
         Raises:
             SofofError: the run has failed.
@@ -150,10 +151,10 @@ class Drive:
         message = self._message()
         if message is None:
             raise self._error()
+        if message["type"] == "told":
+            return message
         if message["type"] == "ask":
             return Ask.of(message)
-        if message["type"] == "told":
-            return Told.of(message)
         self._finish()
         return None
 
@@ -172,7 +173,7 @@ class Drive:
     def _message(self) -> dict[str, Any] | None:
         try:
             line = self._lines.readline()
-            message = json.loads(line) if line.endswith(b"\n") else None
+            message = json.loads(line.decode()) if line.endswith(b"\n") else None
         except (OSError, ValueError):
             return None
         return message if isinstance(message, dict) else None
@@ -225,4 +226,4 @@ def effective(scenario: str, set: Mapping[str, object] | None = None,
     words = ["check", scenario, *program.settings(set or {})]
     if duration:
         words += ["--set", f"duration={program.toml(duration)}"]
-    return tomllib.loads(program.output_of(words))
+    return tomllib.loads(program.call(words))

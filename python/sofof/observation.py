@@ -35,11 +35,11 @@ of the vehicle, E_board that of a cycle on board. So the return of an episode
 over the seconds that vehicles drove is minus the mean cost of a cycle, the
 score (of one service; there a stretch of late results counts once).
 """
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from . import spaces
-from .policy import Ask, Decision, Provider, Told, come_home, run_at, stay
+from .policy import Ask, Decision, Provider, come_home, run_at, stay
 
 OF_VEHICLE = 4
 OF_PROVIDER = 8
@@ -133,18 +133,21 @@ class Costs:
                                     ask.on_board.energy_j or 0.0,
                                     ask.needs.period_s or 1.0)
 
-    def on_told(self, told: Told) -> None:
-        """Counts a cycle."""
-        needs = self._needs.get(told.station)
-        if told.what != "cycle" or told.service != self.service or not needs:
+    def on_told(self, told: Mapping[str, Any]) -> None:
+        """Counts a cycle, of a message as it came."""
+        if told["what"] != "cycle" or told["service"] != self.service:
+            return
+        station = told["station"]
+        needs = self._needs.get(station)
+        if needs is None:
             return
         limit_s, board_j, period_s = needs
-        late = limit_s if told.latency_s is None else told.latency_s
-        cost = TIME_WEIGHT * late / limit_s + MISS_WEIGHT * told.missed
+        late = limit_s if told["latency_s"] is None else told["latency_s"]
+        cost = TIME_WEIGHT * late / limit_s + MISS_WEIGHT * told["missed"]
         if board_j > 0:
-            cost += ENERGY_WEIGHT * told.energy_j / board_j
-        old = self._rewards.get(told.station, 0.0)
-        self._rewards[told.station] = old - cost * told.cycles * period_s
+            cost += ENERGY_WEIGHT * told["energy_j"] / board_j
+        old = self._rewards.get(station, 0.0)
+        self._rewards[station] = old - cost * told["cycles"] * period_s
 
     def take(self) -> dict[int, float]:
         """Rewards by station; from now on they count from 0."""

@@ -55,34 +55,17 @@ def sentence_of(stderr: str, otherwise: str) -> str:
     return "\n".join(lines[starts[-1]:]).removeprefix("sofof: ")
 
 
-def call(arguments: Iterable[str], accept: Iterable[int] = (0,)) -> int:
+def call(arguments: Iterable[str]) -> str:
     """Runs the program to its end.
 
     Args:
         arguments: of its command line.
-        accept: exit codes that are no errors.
 
     Returns:
-        its exit code.
+        what it prints.
 
     Raises:
-        SofofError: any other exit code.
-    """
-    words = [find(), *arguments]
-    done = subprocess.run(words, stdin=subprocess.DEVNULL, text=True,
-                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-    if done.returncode not in accept:
-        raise SofofError(
-            sentence_of(done.stderr, f"sofof ended with {done.returncode}."),
-            done.returncode)
-    return done.returncode
-
-
-def output_of(arguments: Iterable[str]) -> str:
-    """What the program prints.
-
-    Raises:
-        SofofError: any exit code but 0.
+        SofofError: its exit code is not 0.
     """
     done = subprocess.run([find(), *arguments], stdin=subprocess.DEVNULL,
                           text=True, capture_output=True)

@@ -52,19 +52,25 @@ def run(scenario: Path, set: Mapping[str, object] | None = None,
     if force:
         words.append("--force")
     words += [*program.settings(set or {}), *options]
-    before = _summary_of(folder)
-    try:
-        program.call(words)
-    except program.SofofError as e:
-        if e.exit_code != UNSAFE or _summary_of(folder) in (None, before):
-            raise
+    _call(words, folder / "summary.json")
     return load(folder)
 
 
-def _summary_of(folder: pathlib.Path) -> tuple[int, int] | None:
-    """Which summary is there: a run that ends writes another file."""
+def _call(words: Sequence[str], written: pathlib.Path) -> None:
+    """Runs the program; that something was unsafe is no error, if it came to
+    its end: then it has written a file anew."""
+    before = _stamp(written)
     try:
-        at = (folder / "summary.json").stat()
+        program.call(words)
+    except program.SofofError as e:
+        if e.exit_code != UNSAFE or _stamp(written) in (None, before):
+            raise
+
+
+def _stamp(file: pathlib.Path) -> tuple[int, int] | None:
+    """Which file is there, by its inode and time."""
+    try:
+        at = file.stat()
     except FileNotFoundError:
         return None
     return at.st_ino, at.st_mtime_ns
@@ -103,8 +109,8 @@ def sweep(scenario: Path, axes: Mapping[str, Sequence[object]] | None = None,
         jobs: runs at a time; by default as many as there are cores.
 
     Raises:
-        SofofError: the input is wrong, or a run failed; what was finished is
-            kept.
+        SofofError: the input is wrong; what was finished is kept. A point that
+            failed is none: its `status` says so.
     """
     is_sweep_file = axes is None and not set and _has_scenario(scenario)
     if is_sweep_file:
@@ -115,12 +121,12 @@ def sweep(scenario: Path, axes: Mapping[str, Sequence[object]] | None = None,
     if jobs is not None:
         words.append(f"-j{jobs}")
     if is_sweep_file:
-        program.call(["sweep", str(file), *words], accept=(0, UNSAFE))
+        _call(["sweep", str(file), *words], folder / f"{name}.csv")
         return Sweep(folder, name)
     with tempfile.TemporaryDirectory(prefix="sofof_") as at:
         file = pathlib.Path(at) / f"{name}.toml"
         file.write_text(_sweep_file(name, scenario, axes or {}, seeds, set or {}))
-        program.call(["sweep", str(file), *words], accept=(0, UNSAFE))
+        _call(["sweep", str(file), *words], folder / f"{name}.csv")
     return Sweep(folder, name)
 
 
@@ -190,8 +196,8 @@ def bench(scenarios: Iterable[Path] | Path, policies: Iterable[str] = ("all",),
             words += ["--entrants", str(file)]
         if jobs is not None:
             words.append(f"-j{jobs}")
-        program.call([*words, *program.settings(set or {})],
-                     accept=(0, UNSAFE))
+        _call([*words, *program.settings(set or {})],
+              folder / "leaderboard.csv")
     return Leaderboard(folder)
 
 

@@ -5,6 +5,8 @@ import gc
 import importlib.util
 import os
 import pathlib
+import subprocess
+import sys
 import tempfile
 import unittest
 import warnings
@@ -134,10 +136,12 @@ class Episodes(InToyWorld):
     def test_costs_of_a_missed_cycle(self):
         costs = observation.Costs("planning")
         costs.on_ask(sofof.Ask(1, station=5, service="planning"))
-        told = sofof.Told("cycle", 5, "planning", missed=True, cycles=2)
+        told = {"what": "cycle", "station": 5, "service": "planning",
+                "latency_s": None, "missed": True, "energy_j": 0, "cycles": 2}
         costs.on_told(told)  # 0.3 for the time, 1 for the miss, 1 s each
-        costs.on_told(sofof.Told("cycle", 5, "climate", missed=True))
-        costs.on_told(sofof.Told("cycle", 6, "planning", missed=True))
+        costs.on_told({**told, "service": "climate"})
+        costs.on_told({**told, "station": 6})
+        costs.on_told({"what": "episode", "service": "planning"})
         self.assertEqual(costs.take(), {5: -2.6})
         self.assertEqual(costs.take(), {})
 
@@ -207,6 +211,22 @@ class Episodes(InToyWorld):
         for env in (*envs, alone):
             env.close()
         self.nothing_stays()
+
+    def test_it_does_without_numpy(self):
+        script = ("import sys\n"
+                  f"sys.path[:0] = [{str(here.PACKAGE)!r}]\n"
+                  "import sofof\n"
+                  "env = sofof.OffloadingEnv('toy')\n"
+                  "seen, info = env.reset(seed=7)\n"
+                  "assert type(seen) is list and seen in env.observation_space\n"
+                  "assert 'numpy' not in sys.modules\n"
+                  "print([env.step(k % 3)[1] for k in range(15)])\n")
+        # Without the folders of the site there is no numpy.
+        done = subprocess.run([sys.executable, "-I", "-S", "-c", script],
+                              text=True, capture_output=True)
+        self.assertEqual(done.stderr, "")
+        self.assertEqual(done.stdout.strip(),
+                         str(play(sofof.OffloadingEnv("toy"), 7)))
 
     def test_an_unknown_service_is_refused(self):
         with self.assertRaisesRegex(ValueError, "cabin_climate"):
