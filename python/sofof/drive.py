@@ -99,8 +99,9 @@ class Drive:
         listener.bind(address)
         listener.listen(1)
         command = [sys.executable, "-I", "-S", hand_over.__file__, address]
-        lodm = {"filter": "none", "time_limit": "24h", **policy,
-                "name": "process", "command": shlex.join(command)}
+        lodm: dict[str, object] = {
+            "filter": "none", "time_limit": "24h", **policy,
+            "name": "process", "command": shlex.join(command)}
         quiet = {"record.cycles": False, "record.tracks": False}
         words = [program.find(), "run", scenario, "--quiet",
                  f"--seed={self._seed}", "--out", str(folder / "out"),
@@ -108,13 +109,13 @@ class Drive:
         if duration:
             words.append(f"--duration={duration}")
         with open(folder / "stderr", "wb") as stderr:
-            self._started.process = subprocess.Popen(
+            self._process = self._started.process = subprocess.Popen(
                 words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                 stderr=stderr, start_new_session=True)
         self._accept(listener)
 
     def _accept(self, listener: socket.socket) -> None:
-        ended = os.pidfd_open(self._started.process.pid)
+        ended = os.pidfd_open(self._process.pid)
         try:
             if listener not in _readable([listener, ended], PATIENCE_S):
                 raise self._error()
@@ -190,7 +191,7 @@ class Drive:
             x.close()
         self._started.sockets = []
         try:
-            self._started.process.wait(PATIENCE_S)
+            self._process.wait(PATIENCE_S)
         except subprocess.TimeoutExpired:
             raise self._error() from None
         file = pathlib.Path(self._started.folder) / "out" / "summary.json"
@@ -201,12 +202,11 @@ class Drive:
 
     def _error(self) -> program.SofofError:
         """What the program complained of; the run is closed."""
-        process = self._started.process
         for x in self._started.sockets:
             x.close()
         self._started.sockets = []
         try:
-            code = process.wait(LEAVE_S)
+            code: int | None = self._process.wait(LEAVE_S)
         except subprocess.TimeoutExpired:
             code = None
         file = pathlib.Path(self._started.folder) / "stderr"

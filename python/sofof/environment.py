@@ -23,9 +23,8 @@ except ImportError:
         def __enter__(self) -> Any:
             return self
 
-        def __exit__(self, *_: Any) -> bool:
+        def __exit__(self, *_: Any) -> None:
             self.close()  # type: ignore[attr-defined]
-            return False
 
 
 class OffloadingEnv(_Env):

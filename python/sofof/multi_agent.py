@@ -67,6 +67,12 @@ class _Fleet:
             self._episode.close()
         self._episode = self._ask = None
 
+    @property
+    def _running(self) -> Episode:
+        if self._episode is None:
+            raise RuntimeError("No episode runs; reset() begins one.")
+        return self._episode
+
     def _begin(self, seed: int | None) -> None:
         self.close()
         run_seed = self._next_seed if seed is None else int(seed)
@@ -80,7 +86,7 @@ class _Fleet:
     def _go_on(self) -> None:
         """To the next ask, or to the end."""
         try:
-            self._ask = self._episode.next()
+            self._ask = self._running.next()
         except BaseException:
             self.close()
             raise
@@ -152,18 +158,19 @@ class FleetAEC(_Fleet, _AECEnv):
         """
         if not self.agents:
             raise RuntimeError("No episode runs; reset() begins one.")
-        agent = self.agent_selection
+        running, agent = self._running, self.agent_selection
         if self.truncations[agent]:
             self._leave(agent, action)
             return
-        if not self.action_spaces[agent].contains(action):
+        if (self._ask is None or action is None
+                or not self.action_spaces[agent].contains(action)):
             raise ValueError(f"Action {action!r}: not in "
                              f"{self.action_spaces[agent]}.")
         self._cumulative_rewards[agent] = 0.0
-        self._episode.act(self._ask, action)
+        running.act(self._ask, action)
         self._go_on()
         self.rewards = dict.fromkeys(self.agents, 0.0)
-        for station, reward in self._episode.costs.take().items():
+        for station, reward in running.costs.take().items():
             if name_of(station) in self.rewards:
                 self.rewards[name_of(station)] = reward
                 self._cumulative_rewards[name_of(station)] += reward
@@ -176,15 +183,17 @@ class FleetAEC(_Fleet, _AECEnv):
             return
         self.truncations = dict.fromkeys(self.agents, True)
         for agent in self.agents:
-            self.infos[agent]["summary"] = self._episode.summary
+            self.infos[agent]["summary"] = self._running.summary
         self.agent_selection = self.agents[0]
 
     def _leave(self, agent: str, action: int | None) -> None:
         if action is not None:
             raise ValueError(f"{agent} is done: its last action is None.")
         self.agents.remove(agent)
-        for of_agent in (self._cumulative_rewards, self.terminations,
-                         self.truncations, self.infos):
+        of_agents: tuple[dict[str, Any], ...] = (
+            self._cumulative_rewards, self.terminations, self.truncations,
+            self.infos)
+        for of_agent in of_agents:
             del of_agent[agent]
         self.rewards = dict.fromkeys(self.agents, 0.0)
         if self.agents:
@@ -229,6 +238,7 @@ class FleetParallel(_Fleet, _ParallelEnv):
         """
         if not self.agents:
             raise RuntimeError("No episode runs; reset() begins one.")
+        running = self._running
         for agent, action in actions.items():
             if not self.action_space(agent).contains(action):
                 raise ValueError(f"Action {action!r} of {agent}: not in "
@@ -237,23 +247,23 @@ class FleetParallel(_Fleet, _ParallelEnv):
         while self._ask is not None and self._ask.t_s < self._second * GRID_S:
             agent = name_of(self._ask.station)
             if agent in actions:
-                self._episode.act(self._ask, actions[agent])
+                running.act(self._ask, actions[agent])
             else:
-                self._episode.leave(self._ask)
+                running.leave(self._ask)
             self._go_on()
         rewards = dict.fromkeys(self.agents, 0.0)
-        for station, reward in self._episode.costs.take().items():
+        for station, reward in running.costs.take().items():
             if name_of(station) in rewards:
                 rewards[name_of(station)] = reward
         return self._all(rewards)
 
-    def _all(self, rewards: dict[str, float]) -> tuple[Any, ...]:
+    def _all(self, rewards: dict[str, float]) -> Any:
         agents, over = self.agents, self._ask is None
         infos = {x: self._info(x) for x in agents}
         if over:
             self.agents = []
             for info in infos.values():
-                info["summary"] = self._episode.summary
+                info["summary"] = self._running.summary
         return ({x: self._observe(x) for x in agents}, rewards,
                 dict.fromkeys(agents, False), dict.fromkeys(agents, over),
                 infos)

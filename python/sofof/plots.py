@@ -124,9 +124,10 @@ def _numbers(values: Any) -> list[Any]:
     import re
 
     found = [re.fullmatch(r"([-+.0-9e]+)\s*([a-z]*)", str(x)) for x in values]
-    if not all(found) or len({x[2] for x in found}) > 1:
+    numbers = [x for x in found if x]
+    if len(numbers) < len(found) or len({x[2] for x in numbers}) > 1:
         return [str(x) for x in values]
-    return [float(x[1]) for x in found]
+    return [float(x[1]) for x in numbers]
 
 
 def latency_tail(results: Results | Mapping[str, Results] | Sequence[Results],

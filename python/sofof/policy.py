@@ -13,7 +13,7 @@ Decision = dict[str, Any]
 
 
 @functools.cache
-def _names(cls: type) -> frozenset[str]:
+def _names(cls: Any) -> frozenset[str]:
     return frozenset(x.name for x in fields(cls))
 
 
@@ -25,7 +25,8 @@ class _Read:
 
     @classmethod
     def of(cls, text: dict[str, Any]) -> Self:
-        known = _names(cls)
+        kind: Any = cls  # which can be hashed
+        known = _names(kind)
         made = {}
         for name, value in text.items():
             if name not in known:
