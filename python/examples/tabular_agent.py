@@ -18,10 +18,11 @@ SCENARIO = (pathlib.Path(__file__).resolve().parents[2] / "config" / "bench"
             / "mixed_fleet.toml")
 FIRST_SEED = 1000  # of training: rankings begin with 1
 STAYS, CHANGES = 0, 1
+LEAST_RATE = 0.005  # the others learn, too
 EDGES = {  # of the bins of what is seen of a provider
-    2: (0.15, 0.27, 0.40, 0.49),  # utilisation / 2
-    6: (0.25, 0.40, 0.50, 0.99),  # 99 % of the latency / (2 max_latency)
-    7: (0.05, 0.25),              # gain
+    2: (0.27, 0.40, 0.49),  # utilisation / 2
+    6: (0.50,),             # 99 % of the latency / (2 max_latency)
+    7: (0.05, 0.25),        # gain
 }
 SHAPE = (2, *(len(x) + 1 for x in EDGES.values()), 2)
 
@@ -97,7 +98,7 @@ class Learner:
             return
         to_come = self.table[state].max() if state is not None else 0.0
         self.samples[step] += 1
-        rate = 1 / self.samples[step] ** self.decay
+        rate = max(LEAST_RATE, 1 / self.samples[step] ** self.decay)
         reward -= self.switch_cost * step[-1]
         self.table[step] += rate * (reward + self.discount * to_come
                                     - self.table[step])
@@ -108,7 +109,7 @@ def train(file: str, scenario: str, episodes: int) -> None:
     env = sofof.env(scenario)
     learner = Learner()
     for episode in range(episodes):
-        explore = max(0.02, 0.5 * (1 - 1.5 * episode / episodes))
+        explore = max(0.01, 0.15 * (1 - 1.5 * episode / episodes))
         learner.open.clear()
         env.reset(seed=FIRST_SEED + episode)
         earned = 0.0
@@ -165,7 +166,7 @@ def main() -> None:
     words.add_argument("what", choices=("train", "rank", "decide"))
     words.add_argument("file", help="the table")
     words.add_argument("--scenario", default=str(SCENARIO))
-    words.add_argument("--episodes", type=int, default=60)
+    words.add_argument("--episodes", type=int, default=30)
     words.add_argument("--seeds", type=int, default=8)
     words.add_argument("--out", default="results/tabular_agent")
     given = words.parse_args()
