@@ -26,8 +26,9 @@ programs::program_setup setup_of(const scenario_definition& s,
 }
 
 /// @returns what tells apart programs that may be different.
-std::string identity_of(const scenario_definition& s, std::string_view side,
-                        const programs::program_setup& setup) {
+std::string program_identity(const scenario_definition& s,
+                             std::string_view side,
+                             const programs::program_setup& setup) {
   auto text =
       fmt::format("{}\n{}\n{}\n", side, setup.command, setup.folder.string());
   for (const auto& file : s.policies.files)
@@ -42,7 +43,7 @@ programs::hello_answer hello_of(const scenario_definition& s,
   static std::mutex lock;
   static std::map<std::string, programs::hello_answer> known;
   auto setup = setup_of(s, side, use);
-  const auto identity = identity_of(s, side, setup);
+  const auto identity = program_identity(s, side, setup);
   const std::lock_guard locked{lock};
   auto i = known.find(identity);
   if (i == known.end()) {
