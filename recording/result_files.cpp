@@ -34,6 +34,14 @@ std::filesystem::path cleared(std::filesystem::path folder) {
   return folder;
 }
 
+/// @param file  May be in a folder that is to be made.
+void write_policy_file(const std::filesystem::path& file,
+                       std::string_view text) {
+  std::error_code error;
+  std::filesystem::create_directories(file.parent_path(), error);
+  write_file(file, text); // which says what is wrong
+}
+
 } // namespace
 
 result_files::result_files(std::filesystem::path folder, const run_info& run)
@@ -60,6 +68,8 @@ result_files::result_files(std::filesystem::path folder, const run_info& run)
     write_file(folder_ / "trace.txt", run.trace_text);
   if (!run.forecast_csv.empty())
     write_file(folder_ / "forecast.csv", run.forecast_csv);
+  for (const auto& [name, text] : run.policy_files)
+    write_policy_file(folder_ / name, text);
   write_file(folder_ / "config.toml", run.config_toml);
 }
 

@@ -69,6 +69,8 @@ struct run_info {
   std::string trace_text; ///< The trace that it names; empty for none.
   /// What was learned before, that it names; empty for none.
   std::string forecast_csv;
+  /// Files that policies need, by their names in the results folder.
+  std::map<std::string, std::string> policy_files;
   std::int64_t seed = 0;
   std::size_t vehicles = 0;
   std::string provider; ///< The one that is all that runs here; often empty.

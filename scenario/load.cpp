@@ -5,6 +5,7 @@
 #include "base/options/toml_file.hpp"
 #include "scenario/checks.hpp"
 #include "scenario/map_file.hpp"
+#include "scenario/policy_files.hpp"
 #include "scenario/quality_file.hpp"
 
 #include <fmt/format.h>
@@ -170,6 +171,7 @@ scenario_definition parse_scenario(std::string_view text, const fs::path& file,
     load_trace(all, folder, source);
   if (!all.policies.forecast.file.empty())
     load_forecast(all, folder, source);
+  load_policy_files(all, folder, source);
   load_world(all, folder, source);
   load_provider_maps(all, folder, source);
   check_whole(all, source);

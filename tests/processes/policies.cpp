@@ -69,6 +69,8 @@ TEST_CASE("every policy that is listed is described, and what is said of its "
     REQUIRE(begin != told.npos);
     CHECK(contains(told.substr(begin), "decides by: "));
     CHECK(contains(told.substr(begin), "source: "));
+    if (name == "process") // of which there is none by default
+      continue;
     const auto header = "[policies." + side + "]";
     const auto check = at.run_sofof(
         {"check", "config/ulm_lehr.toml", "--set", setting(side, name)});
