@@ -17,21 +17,23 @@ from sofof import observation
 SCENARIO = (pathlib.Path(__file__).resolve().parents[2] / "config" / "bench"
             / "mixed_fleet.toml")
 FIRST_SEED = 1000  # of training: rankings begin with 1
+EPOCH_S = 0.5
 STAYS, CHANGES = 0, 1
 LEAST_RATE = 0.005  # the others learn, too
-EDGES = {  # of the bins of what is seen of a provider
-    2: (0.27, 0.40, 0.49),  # utilisation / 2
-    6: (0.50,),             # 99 % of the latency / (2 max_latency)
-    7: (0.05, 0.25),        # gain
-}
-SHAPE = (2, *(len(x) + 1 for x in EDGES.values()), 2)
+# Edges of bins, by the place of what is seen: of the vehicle, of a provider.
+OF_VEHICLE = {3: (0.09, 0.15)}  # time of a cycle on board / max_latency
+OF_PROVIDER = {2: (0.27, 0.40, 0.49),  # utilisation / 2
+               6: (0.50,)}             # 99 % of the latency / (2 max_latency)
+SHAPE = (2, *(len(x) + 1 for of in (OF_VEHICLE, OF_PROVIDER)
+              for x in of.values()), 2)
 
 
 def state_of(seen, place: int) -> tuple[int, ...]:
     """Of what a vehicle sees of the provider at a place, from 1 on."""
     at = observation.OF_VEHICLE + observation.OF_PROVIDER * (place - 1)
-    bins = (int(numpy.searchsorted(edges, seen[at + k], side="right"))
-            for k, edges in EDGES.items())
+    places = [*OF_VEHICLE.items(),
+              *((at + k, edges) for k, edges in OF_PROVIDER.items())]
+    bins = (sum(seen[k] >= edge for edge in edges) for k, edges in places)
     return (int(seen[at + 1] > 0.5), *bins)
 
 
@@ -65,11 +67,11 @@ class Learner:
 
     Args:
         decay: of the rate of learning with the samples of a state and action.
-        discount: of a second.
+        discount: of an epoch.
         switch_cost: of a change: it is a request, and a plan of another source.
     """
 
-    def __init__(self, seed: int = 1, discount: float = 0.9,
+    def __init__(self, seed: int = 1, discount: float = 0.95,
                  decay: float = 0.6, switch_cost: float = 0.05):
         self.table = numpy.zeros(SHAPE)
         self.samples = numpy.zeros(SHAPE)
@@ -106,7 +108,7 @@ class Learner:
 
 def train(file: str, scenario: str, episodes: int) -> None:
     """Drives, and writes the table."""
-    env = sofof.env(scenario)
+    env = sofof.env(scenario, epoch_s=EPOCH_S)
     learner = Learner()
     for episode in range(episodes):
         explore = max(0.01, 0.15 * (1 - 1.5 * episode / episodes))
@@ -152,7 +154,7 @@ class Tabular(sofof.Policy):
 def rank(file: str, scenario: str, seeds: int, out: str) -> None:
     """Prints the leaderboard."""
     mine = sofof.process(__file__, "decide", str(pathlib.Path(file).resolve()),
-                         epoch_s=1.0, filter="none")
+                         epoch_s=EPOCH_S, filter="none")
     board = sofof.bench(scenario, ["random", "always", "location", "table"],
                         entrants={"table": {"lodm": mine}}, seeds=seeds,
                         out=out)
@@ -166,7 +168,7 @@ def main() -> None:
     words.add_argument("what", choices=("train", "rank", "decide"))
     words.add_argument("file", help="the table")
     words.add_argument("--scenario", default=str(SCENARIO))
-    words.add_argument("--episodes", type=int, default=30)
+    words.add_argument("--episodes", type=int, default=24)
     words.add_argument("--seeds", type=int, default=8)
     words.add_argument("--out", default="results/tabular_agent")
     given = words.parse_args()

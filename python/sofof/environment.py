@@ -57,7 +57,7 @@ class OffloadingEnv(_Env):
 
     def __init__(self, scenario: Any, set: Mapping[str, object] | None = None,
                  duration: str | float | None = None,
-                 service: str = "trajectory_planning", epoch_s: float = 1.0,
+                 service: str = "trajectory_planning", epoch_s: float = 0.5,
                  policy: Mapping[str, object] | None = None,
                  station: int | None = None, others: Others | None = None):
         self._setting = Setting(scenario, set, duration, service, epoch_s,

@@ -271,7 +271,7 @@ class FleetParallel(_Fleet, _ParallelEnv):
 
 def env(scenario: Any, set: Mapping[str, object] | None = None,
         duration: str | float | None = None,
-        service: str = "trajectory_planning", epoch_s: float = 1.0,
+        service: str = "trajectory_planning", epoch_s: float = 0.5,
         policy: Mapping[str, object] | None = None) -> FleetAEC:
     """PettingZoo's AEC environment of a scenario; arguments as those of
     `OffloadingEnv`.

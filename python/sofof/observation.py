@@ -31,9 +31,11 @@ docs/bench.md, times their period:
     - sum of (0.3 T / max_latency + 0.3 E / E_board + [missed]) * period_s
 
 with T the latency, max_latency for a result that never came, and E the energy
-of the vehicle, E_board that of a cycle on board. So the return of an episode
-over the seconds that vehicles drove is minus the mean cost of a cycle, the
-score (of one service; there a stretch of late results counts once).
+of the vehicle, E_board that of a cycle on board, the mean of all vehicles that
+have been asked so far: whose computer takes most has most to save. So the
+return of an episode over the seconds that vehicles drove is minus the mean cost
+of a cycle, the score (of one service; there a stretch of late results counts
+once).
 """
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -124,14 +126,19 @@ class Costs:
 
     def __init__(self, service: str):
         self.service = service
-        self._needs: dict[int, tuple[float, float, float]] = {}
+        self._needs: dict[int, tuple[float, float]] = {}
+        self._board_j: dict[int, float] = {}
+        self._mean_j = 0.0
         self._rewards: dict[int, float] = {}
 
     def on_ask(self, ask: Ask) -> None:
         """Remembers what cycles of this vehicle are measured by."""
         self._needs[ask.station] = (ask.needs.max_latency_s or 1.0,
-                                    ask.on_board.energy_j or 0.0,
                                     ask.needs.period_s or 1.0)
+        board_j = ask.on_board.energy_j or 0.0
+        if self._board_j.get(ask.station) != board_j:
+            self._board_j[ask.station] = board_j
+            self._mean_j = sum(self._board_j.values()) / len(self._board_j)
 
     def on_told(self, told: Mapping[str, Any]) -> None:
         """Counts a cycle, of a message as it came."""
@@ -141,11 +148,11 @@ class Costs:
         needs = self._needs.get(station)
         if needs is None:
             return
-        limit_s, board_j, period_s = needs
+        limit_s, period_s = needs
         late = limit_s if told["latency_s"] is None else told["latency_s"]
         cost = TIME_WEIGHT * late / limit_s + MISS_WEIGHT * told["missed"]
-        if board_j > 0:
-            cost += ENERGY_WEIGHT * told["energy_j"] / board_j
+        if self._mean_j > 0:
+            cost += ENERGY_WEIGHT * told["energy_j"] / self._mean_j
         old = self._rewards.get(station, 0.0)
         self._rewards[station] = old - cost * told["cycles"] * period_s
 
