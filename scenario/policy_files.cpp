@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <set>
 #include <stdexcept>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -49,20 +50,20 @@ std::vector<std::string> names_in(const std::string& word) {
 class command_reader {
 public:
   command_reader(scenario_definition& all, std::string_view side,
-                 const toml_file& source)
-      : all_{all}, side_{side}, source_{source} {}
+                 const toml_file& source, bool is_run)
+      : all_{all}, side_{side}, source_{source}, is_run_{is_run} {}
 
   void read(const std::string& command, const fs::path& folder,
             const std::string& given_folder) {
     if (command.empty())
       refuse("command", "must name a program and its arguments: command = "
                         "\"/usr/bin/python3 mine.py\".");
-    if (!fs::is_directory(folder))
+    if (is_run_ && !fs::is_directory(folder))
       refuse("folder", fmt::format("must be a folder; \"{}\", which is {}, is "
                                    "none.",
                                    given_folder, folder.string()));
     const auto words = words_of(command);
-    if (words.empty() || !find_program(words.front(), folder))
+    if (is_run_ && (words.empty() || !find_program(words.front(), folder)))
       refuse("command",
              fmt::format("starts with \"{}\", which is no program{}.",
                          words.empty() ? "" : words.front(),
@@ -104,6 +105,7 @@ private:
         stays_inside(path)) {
       found.copy = (copies_of(side_) / path).string();
       found.text = std::move(content.text);
+      found.is_executable = access(file.c_str(), X_OK) == 0;
     }
     all_.policies.files.push_back(std::move(found));
   }
@@ -116,6 +118,7 @@ private:
   scenario_definition& all_;
   std::string_view side_;
   const toml_file& source_;
+  bool is_run_;
   std::set<std::string> met_;
 };
 
@@ -147,11 +150,11 @@ void load_snapshot(scenario_definition& all, const fs::path& folder,
 } // namespace
 
 void load_policy_files(scenario_definition& all, const fs::path& folder,
-                       const toml_file& source) {
+                       const toml_file& source, bool is_run) {
   for_each_program(all.policies, [&](std::string_view side, auto& program) {
     program.origin = folder.string();
-    command_reader{all, side, source}.read(program.command, place_of(program),
-                                           program.folder);
+    command_reader{all, side, source, is_run}.read(
+        program.command, place_of(program), program.folder);
   });
   load_snapshot(all, folder, source);
 }

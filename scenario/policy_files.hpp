@@ -16,9 +16,11 @@ namespace sofof::scenario {
 /// @param all     Gets their texts, and where programs run.
 /// @param folder  Of the scenario's file.
 /// @param source  Refuses what is wrong, at its place.
+/// @param is_run  Else programs need not be there: results tell of a run that
+///                was made elsewhere.
 void load_policy_files(scenario_definition& all,
                        const std::filesystem::path& folder,
-                       const toml_file& source);
+                       const toml_file& source, bool is_run);
 
 /// Has the policies name the copies that a results folder holds.
 /// @param policies  Become copies.

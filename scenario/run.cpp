@@ -71,7 +71,7 @@ recording::run_info describe(const scenario_definition& s,
   info.forecast_csv = s.policies.forecast.text;
   for (const auto& file : s.policies.files)
     if (!file.copy.empty())
-      info.policy_files[file.copy] = file.text;
+      info.policy_files[file.copy] = {file.text, file.is_executable};
   info.seed = s.seed;
   if (const auto* planning = planning_service(s))
     info.headline_kind = planning->name();

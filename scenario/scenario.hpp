@@ -31,6 +31,7 @@ struct policy_file {
   std::string key;  ///< Says which, and what is in it.
   std::string copy; ///< Its name in a results folder; empty: none is kept.
   std::string text; ///< Of that copy.
+  bool is_executable = false;
 };
 
 /// How offloading is decided.

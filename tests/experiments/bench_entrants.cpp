@@ -78,6 +78,25 @@ TEST_CASE("an entrant of a file has its options, and location for the rest") {
             "policies.codm=edf"});
 }
 
+TEST_CASE("files that an entrant names are sought from its own file on, "
+          "wherever the scenario is") {
+  const auto all = parse_entrants(
+      "mine = { lodm = { name = \"process\", command = \"./mine\" } }\n"
+      "its = { codm = { name = \"process\", command = \"x\", folder = \"of\" } "
+      "}\n"
+      "taught = { lodm = { name = \"dqn\", snapshot = \"dqn.txt\" } }\n"
+      "there = { lodm = { name = \"dqn\", snapshot = \"/a/dqn.txt\" } }\n",
+      "/some/where/mine.toml");
+  CHECK(find(all, "mine").lodm.find("folder = \"/some/where\"")
+        != std::string::npos);
+  CHECK(find(all, "its").codm.find("folder = \"/some/where/of\"")
+        != std::string::npos);
+  CHECK(find(all, "taught").lodm.find("snapshot = \"/some/where/dqn.txt\"")
+        != std::string::npos);
+  CHECK(find(all, "there").lodm.find("snapshot = \"/a/dqn.txt\"")
+        != std::string::npos);
+}
+
 TEST_CASE("mistakes in a file of entrants are found where they stand") {
   CHECK(refusal("x = { lodm = \"nearst\" }\n")
             .starts_with("mine.toml:1:14: name: "));

@@ -47,7 +47,8 @@ struct own_folder {
   scratch at;
 
   scenario_definition load(const std::string& policies) const {
-    return parse_scenario(town + policies + '\n', at / "town.toml");
+    write_text(at / "town.toml", town + policies + '\n');
+    return load_scenario(at / "town.toml");
   }
   std::string error_of(const std::string& policies) const {
     try {
@@ -91,11 +92,22 @@ TEST_CASE_FIXTURE(own_folder, "a program that cannot be started is refused "
        {"did you mean \"command\"?"});
 }
 
+TEST_CASE_FIXTURE(own_folder, "who only looks at a run needs no program") {
+  const auto s = parse_scenario(
+      std::string{town}
+          + "lodm = { name = \"process\", command = \"./gone\", folder = "
+            "\"gone\" }\n",
+      at / "config.toml");
+  CHECK(s.policies.lodm->program()->command == "./gone");
+}
+
 TEST_CASE_FIXTURE(own_folder, "the files of a command are those of its words "
                               "and behind a =, and copies are kept of those "
                               "inside its folder") {
   fs::create_directories(at / "mine/parts");
   write_text(at / "mine/decide.sh", says_its_version);
+  fs::permissions(at / "mine/decide.sh", fs::perms::owner_exec,
+                  fs::perm_options::add);
   write_text(at / "mine/parts/weights", "1 2 3");
   write_text(at / "outside", "4");
   const auto s = load("lodm = { name = \"process\", folder = \"mine\", command "
@@ -108,6 +120,8 @@ TEST_CASE_FIXTURE(own_folder, "the files of a command are those of its words "
         == std::vector<std::string>{"", "lodm_program/decide.sh",
                                     "lodm_program/parts/weights", ""});
   CHECK(s.policies.files[2].text == "1 2 3");
+  CHECK(s.policies.files[1].is_executable);
+  CHECK_FALSE(s.policies.files[2].is_executable);
   const auto named = configuration_of(s);
   CHECK(contains(named, "folder = \"lodm_program\""));
   CHECK(s.policies.lodm->program()->folder == "mine");
