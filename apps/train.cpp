@@ -24,6 +24,7 @@ struct train_arguments {
   int obey() {
     for (const auto& file : files)
       options.scenarios.emplace_back(find_scenario(file));
+    options.version = SOFOF_VERSION;
     options.out = out.empty() ? options.policy + ".txt" : out;
     if (!quiet)
       options.show = isatty(STDOUT_FILENO) != 0
@@ -47,7 +48,9 @@ void add_train(CLI::App& app, int& exit_code) {
   command->add_option("FILES", args->files, "Scenario files (TOML)")
       ->required()
       ->type_name(" ");
-  command->add_option("--policy", args->options.policy, "q_learning or dqn")
+  command
+      ->add_option("--policy", args->options.policy,
+                   "q_learning, dqn, ucb1 or alto")
       ->required()
       ->type_name("NAME");
   args->options.seeds = 20;
@@ -71,6 +74,8 @@ void add_train(CLI::App& app, int& exit_code) {
   command->add_flag("--quiet", args->quiet, "No progress");
   command->footer(
       "Example:\n  sofof train config/bench/*.toml --policy dqn\n\n"
+      "and then, in a scenario:\n  lodm = { name = \"dqn\", snapshot = "
+      "\"dqn.txt\" }\n\n"
       "The snapshots in policies/algorithms/learning/snapshots are built into "
       "the program.");
   command->callback([args, &exit_code] {

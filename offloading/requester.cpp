@@ -147,7 +147,8 @@ void requester::expire(const epoch_end&, time_point now) {
           .service = x.service.name.view(),
           .latency_s = x.on_board.time_s,
           .energy_j = x.on_board.energy_j,
-          .cycles = to_seconds(epoch_) / to_seconds(x.needs.period)});
+          .cycles = to_seconds(epoch_) / to_seconds(x.needs.period),
+          .station = setup_.station});
   }
   weigh([](const service_state&) { return true; }, std::nullopt, now);
 }
@@ -390,7 +391,8 @@ requester::context_of(const service_state& service,
           .on_board = service.on_board,
           .safe_response = safe_response_of(all, now),
           .chain = chain,
-          .future = setup_.future.get()};
+          .future = setup_.future.get(),
+          .station = setup_.station};
 }
 
 // The provider that the policy wants beside the first may only stand by.

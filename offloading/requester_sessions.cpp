@@ -109,7 +109,7 @@ void requester::refuse(service_state& service, provider_id provider,
   assert(service.find(provider)->at == phase::requested);
   log_verdict(service, provider, 0, why, false, now);
   setup_.policy->observe(policies::refusal_outcome{
-      now, service.service.name.view(), provider, why});
+      now, service.service.name.view(), provider, why, setup_.station});
   service.drop(provider);
   assert(!service.find(provider));
   if (!instead || *instead == provider)
@@ -157,7 +157,8 @@ void requester::on_result(const messages::service_result& result,
       .computed_at = provider,
       .latency_s = to_seconds(latency),
       .missed = !in_time(result.created, now, service.needs.max_latency),
-      .energy_j = service.offloaded.energy_j});
+      .energy_j = service.offloaded.energy_j,
+      .station = setup_.station});
   port_.forward(result);
   look_ahead(service, now);
 }
@@ -468,7 +469,8 @@ void requester::observe_missed(const service_state& service,
       .computed_at = provider,
       .latency_s = std::numeric_limits<double>::infinity(),
       .missed = true,
-      .energy_j = service.offloaded.energy_j});
+      .energy_j = service.offloaded.energy_j,
+      .station = setup_.station});
 }
 
 void requester::learn_from(const service_state& service,

@@ -45,6 +45,8 @@ public:
   std::optional<std::string> restore(std::string_view text) override {
     return choice_->restore(text);
   }
+  program_use<Policy>* program() override { return choice_->program(); }
+  snapshot_use* learned_from() override { return choice_->learned_from(); }
   void visit_options(option_visitor& s) override;
   std::string_view name() const override { return choice_->name(); }
   std::string title() const override { return choice_->title(); }

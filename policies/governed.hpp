@@ -34,6 +34,8 @@ public:
   std::optional<std::string> restore(std::string_view text) override {
     return whole_->restore(text);
   }
+  program_use<local_policy>* program() override { return whole_->program(); }
+  snapshot_use* learned_from() override { return whole_->learned_from(); }
   /// Those of the policy, and the list `govern`.
   void visit_options(option_visitor& s) override;
   std::string_view name() const override { return whole_->name(); }

@@ -34,6 +34,20 @@ std::filesystem::path cleared(std::filesystem::path folder) {
   return folder;
 }
 
+/// @param file  May be in a folder that is to be made.
+void write_policy_file(const std::filesystem::path& file,
+                       const policy_copy& copy) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  fs::create_directories(file.parent_path(), error);
+  write_file(file, copy.text); // which says what is wrong
+  if (copy.is_executable)
+    fs::permissions(file,
+                    fs::perms::owner_exec | fs::perms::group_exec
+                        | fs::perms::others_exec,
+                    fs::perm_options::add, error);
+}
+
 } // namespace
 
 result_files::result_files(std::filesystem::path folder, const run_info& run)
@@ -60,6 +74,8 @@ result_files::result_files(std::filesystem::path folder, const run_info& run)
     write_file(folder_ / "trace.txt", run.trace_text);
   if (!run.forecast_csv.empty())
     write_file(folder_ / "forecast.csv", run.forecast_csv);
+  for (const auto& [name, copy] : run.policy_files)
+    write_policy_file(folder_ / name, copy);
   write_file(folder_ / "config.toml", run.config_toml);
 }
 

@@ -20,19 +20,48 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::string_view files_of_a_run[] = {
-    "summary.json",      "summary.json.tmp", "config.toml",
-    "config.toml.tmp",   "episodes.csv",     "cycles.csv",
-    "tracks.csv",        "events.jsonl",     "timing.csv",
-    "timing.csv.tmp",    "map.toml",         "map.toml.tmp",
-    "trace.txt",         "trace.txt.tmp",    "vehicles.csv",
-    "distributions.csv", "cpu.csv",          "cpu.csv.tmp",
-    "margins.csv",       "load.csv",         "load.csv.tmp",
-    "octets.csv",        "octets.csv.tmp",   "disturbed.csv",
-    "disturbed.csv.tmp", "claims.csv",       "protocol_trace.csv",
-    "scene.csv",         "responses.csv",    "energy.csv",
-    "energy.csv.tmp",    "plans.csv",        "quality.csv",
-    "quality.csv.tmp",   "forecast.csv",     "forecast.csv.tmp"};
+constexpr std::string_view files_of_a_run[] = {"summary.json",
+                                               "summary.json.tmp",
+                                               "config.toml",
+                                               "config.toml.tmp",
+                                               "episodes.csv",
+                                               "cycles.csv",
+                                               "tracks.csv",
+                                               "events.jsonl",
+                                               "timing.csv",
+                                               "timing.csv.tmp",
+                                               "map.toml",
+                                               "map.toml.tmp",
+                                               "trace.txt",
+                                               "trace.txt.tmp",
+                                               "vehicles.csv",
+                                               "distributions.csv",
+                                               "cpu.csv",
+                                               "cpu.csv.tmp",
+                                               "margins.csv",
+                                               "load.csv",
+                                               "load.csv.tmp",
+                                               "octets.csv",
+                                               "octets.csv.tmp",
+                                               "disturbed.csv",
+                                               "disturbed.csv.tmp",
+                                               "claims.csv",
+                                               "protocol_trace.csv",
+                                               "scene.csv",
+                                               "responses.csv",
+                                               "energy.csv",
+                                               "energy.csv.tmp",
+                                               "plans.csv",
+                                               "quality.csv",
+                                               "quality.csv.tmp",
+                                               "forecast.csv",
+                                               "forecast.csv.tmp",
+                                               "lodm_snapshot.txt",
+                                               "lodm_snapshot.txt.tmp"};
+
+/// With copies of what programs consist of.
+constexpr std::string_view folders_of_a_run[] = {"lodm_program",
+                                                 "codm_program"};
 
 bool is_provider_map(std::string_view name) {
   if (!name.starts_with(provider_map_prefix))
@@ -170,6 +199,15 @@ void remove_results(const fs::path& folder) {
           fmt::format("cannot replace {}: {}; choose another folder with --out",
                       (folder / name).string(), error.message()),
           error.value());
+  }
+  for (const auto name : folders_of_a_run) {
+    std::error_code error;
+    fs::remove_all(folder / name, error);
+    if (error)
+      refuse_to_write(fmt::format("cannot replace {}: {}; choose another "
+                                  "folder with --out",
+                                  (folder / name).string(), error.message()),
+                      error.value());
   }
 }
 

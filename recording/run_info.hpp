@@ -54,6 +54,12 @@ inline std::string_view name_of(provider_id provider,
   return found != names.end() ? std::string_view{found->second} : "";
 }
 
+/// A file that a policy needs, as it was.
+struct policy_copy {
+  std::string text;
+  bool is_executable = false;
+};
+
 /// Known before the first record.
 struct run_info {
   std::string scenario;    ///< Its name.
@@ -69,6 +75,8 @@ struct run_info {
   std::string trace_text; ///< The trace that it names; empty for none.
   /// What was learned before, that it names; empty for none.
   std::string forecast_csv;
+  /// Files that policies need, by their names in the results folder.
+  std::map<std::string, policy_copy> policy_files;
   std::int64_t seed = 0;
   std::size_t vehicles = 0;
   std::string provider; ///< The one that is all that runs here; often empty.

@@ -67,6 +67,12 @@ public:
   std::optional<std::string> restore(std::string_view text) override {
     return what_->restore(text);
   }
+  policies::program_use<whole_policy>* program() override {
+    return what_->program();
+  }
+  policies::snapshot_use* learned_from() override {
+    return what_->learned_from();
+  }
   void visit_options(option_visitor& s) override { what_->visit_options(s); }
   std::string_view name() const override { return what_->name(); }
   std::string title() const override { return what_->title(); }

@@ -5,6 +5,7 @@
 #include "base/options/toml_file.hpp"
 #include "scenario/checks.hpp"
 #include "scenario/map_file.hpp"
+#include "scenario/policy_files.hpp"
 #include "scenario/quality_file.hpp"
 
 #include <fmt/format.h>
@@ -150,10 +151,9 @@ void tell(const std::vector<option_note>& notes) {
                    note.text.c_str());
 }
 
-} // namespace
-
-scenario_definition parse_scenario(std::string_view text, const fs::path& file,
-                                   std::span<const std::string> overrides) {
+/// @param is_run  As `load_policy_files` has it.
+scenario_definition parse(std::string_view text, const fs::path& file,
+                          std::span<const std::string> overrides, bool is_run) {
   toml_file source{text, file.string()};
   for (const auto& assignment : overrides)
     source.set(assignment);
@@ -170,15 +170,23 @@ scenario_definition parse_scenario(std::string_view text, const fs::path& file,
     load_trace(all, folder, source);
   if (!all.policies.forecast.file.empty())
     load_forecast(all, folder, source);
+  load_policy_files(all, folder, source, is_run);
   load_world(all, folder, source);
   load_provider_maps(all, folder, source);
   check_whole(all, source);
   return all;
 }
 
+} // namespace
+
+scenario_definition parse_scenario(std::string_view text, const fs::path& file,
+                                   std::span<const std::string> overrides) {
+  return parse(text, file, overrides, false);
+}
+
 scenario_definition load_scenario(const fs::path& file,
                                   std::span<const std::string> overrides) {
-  auto all = parse_scenario(require_text(file), file, overrides);
+  auto all = parse(require_text(file), file, overrides, true);
   tell(all.notes);
   return all;
 }

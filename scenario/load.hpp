@@ -21,7 +21,8 @@ namespace sofof::scenario {
 scenario_definition load_scenario(const std::filesystem::path& file,
                                   std::span<const std::string> overrides = {});
 
-/// The same for text in memory; of notes nothing is told.
+/// The same for text in memory, which need not be run: of notes nothing is
+/// told, and programs that decide need not be there.
 /// @param file  Where it could stand.
 scenario_definition parse_scenario(std::string_view text,
                                    const std::filesystem::path& file,

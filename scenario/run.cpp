@@ -17,6 +17,8 @@
 #include "scenario/live_view.hpp"
 #include "scenario/operations.hpp"
 #include "scenario/placement.hpp"
+#include "scenario/policy_files.hpp"
+#include "scenario/running_programs.hpp"
 #include "scenario/runtime.hpp"
 #include "scenario/stall_watch.hpp"
 
@@ -67,6 +69,9 @@ recording::run_info describe(const scenario_definition& s,
       info.provider_maps[map_copy_of(k)] = p.map_text;
   info.trace_text = s.trace_text;
   info.forecast_csv = s.policies.forecast.text;
+  for (const auto& file : s.policies.files)
+    if (!file.copy.empty())
+      info.policy_files[file.copy] = {file.text, file.is_executable};
   info.seed = s.seed;
   if (const auto* planning = planning_service(s))
     info.headline_kind = planning->name();
@@ -290,6 +295,16 @@ void tell_addresses(const stage& on) {
     on.console << "live page: " << on.live->address() << std::endl;
 }
 
+deciding_sides deciding_in(const scenario_definition& s,
+                           const process_share& here) {
+  deciding_sides sides{false, false};
+  for (const auto& v : place_vehicles(s))
+    sides.lodm = sides.lodm || here.drives(v.station);
+  for (std::size_t k = 0; k < s.providers.size(); ++k)
+    sides.codm = sides.codm || here.provides(k);
+  return sides;
+}
+
 /// @returns the scenario as it is to be built for those who look on.
 scenario_definition with_tracks(scenario_definition s, const live_view* live) {
   s.record.tracks = s.record.tracks || live; // which nobody writes
@@ -414,6 +429,7 @@ std::string configuration_of(scenario_definition s) {
     s.network.trace = "trace.txt";
   if (!s.policies.forecast.text.empty())
     s.policies.forecast.file = "forecast.csv";
+  name_copies(s.policies);
   return "# The effective configuration of this run; `sofof run` takes it.\n"
          + to_toml(std::move(s));
 }
@@ -439,12 +455,14 @@ run_outcome run(const scenario_definition& s, const run_options& options,
   return run_part(s, options, {}, *time, interrupted, console);
 }
 
-run_outcome run_part(const scenario_definition& s, const run_options& options,
-                     const process_share& here, runtime& time,
-                     const std::atomic<bool>& interrupted,
+run_outcome run_part(const scenario_definition& given,
+                     const run_options& options, const process_share& here,
+                     runtime& time, const std::atomic<bool>& interrupted,
                      std::ostream& console,
                      const std::function<void(const world_actors&)>& on_start) {
-  check_capture(s, options);
+  check_capture(given, options);
+  auto s = given;
+  const running_programs programs{s, deciding_in(s, here)};
   auto info = describe(s, options, here);
   info.time_of_day = time.clock();
   const auto name =
@@ -472,23 +490,27 @@ run_outcome run_part(const scenario_definition& s, const run_options& options,
     console << "datagrams are heard at " << udp->address() << std::endl;
   const auto kept = make_keeper(name, s.seed, info, options);
   const auto end = options.endless ? time_point::max() : info.start + s.length;
+  programs.on_failure([keeper = kept.keeper](const std::string& sentence) {
+    keeper->fail(sentence);
+  });
   stage on{options, interrupted, console, *kept.keeper};
   on.watched = watched ? &*watched : nullptr;
   on.live = live.get();
   on.udp = udp ? &*udp : nullptr;
   if (options.realtime)
     on.stalls.emplace();
-  played run;
   auto has_begun = false;
   try {
-    run = play(s, here, time, end, kept.keeper, on, on_start, has_begun);
+    const auto run =
+        play(s, here, time, end, kept.keeper, on, on_start, has_begun);
+    programs.end();
+    return finish(run, info, kept.folder, !options.endless && run.ended < end,
+                  on);
   } catch (...) {
-    if (!has_begun)
+    if (!has_begun || programs.have_failed())
       discard(kept.folder, was_there);
     throw;
   }
-  return finish(run, info, kept.folder, !options.endless && run.ended < end,
-                on);
 }
 
 } // namespace sofof::scenario

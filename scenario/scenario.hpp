@@ -26,12 +26,21 @@
 
 namespace sofof::scenario {
 
+/// A file that a policy needs.
+struct policy_file {
+  std::string key;  ///< Says which, and what is in it.
+  std::string copy; ///< Its name in a results folder; empty: none is kept.
+  std::string text; ///< Of that copy.
+  bool is_executable = false;
+};
+
 /// How offloading is decided.
 struct policy_options {
   /// Prototypes: each vehicle and each provider has a clone.
   std::shared_ptr<policies::local_policy> lodm;
   std::shared_ptr<policies::central_policy> codm;
-  forecast_options forecast; ///< That LODMs may go by.
+  forecast_options forecast;      ///< That LODMs may go by.
+  std::vector<policy_file> files; ///< Of a loaded scenario: all they need.
 
   policy_options(); ///< The paper's: "location" for both.
   void visit_options(option_visitor& s);

@@ -54,6 +54,29 @@ const entrant& find_entrant(const std::vector<entrant>& all,
   return *found;
 }
 
+/// Has the paths of a policy's options lead to the same places wherever the
+/// scenario is.
+/// @param folder  Of the file that they stand in.
+void anchor(toml::table& policies, std::string_view side,
+            const std::filesystem::path& folder) {
+  auto* table = policies[side].as_table();
+  if (!table)
+    return;
+  const auto name = (*table)["name"].value_or(std::string{});
+  const auto place = [&](std::string_view key) {
+    const auto given = (*table)[key].value_or(std::string{});
+    table->insert_or_assign(key, std::filesystem::absolute("." / folder / given)
+                                     .lexically_normal()
+                                     .string());
+  };
+  if (const auto lodm = policies::make_lodm(name);
+      side == "lodm" && lodm && lodm->learned_from()
+      && table->contains("snapshot"))
+    place("snapshot");
+  if (name == "process")
+    place("folder");
+}
+
 std::string text_of(const toml::table& policies, std::string_view side) {
   const auto* node = policies.get(side);
   if (!node)
@@ -107,11 +130,15 @@ sweep_axis::value entrant::as_value() const {
 std::vector<entrant> plain_entrants() {
   std::vector<entrant> all;
   for (const auto name : policies::lodm_names()) {
+    if (policies::make_lodm(name)->program())
+      continue; // which one?
     const auto codm = name == best_possible ? best_shared_out : beside;
     all.push_back({std::string{name}, std::string{name}, std::string{codm}});
   }
   for (const auto name : policies::codm_names()) {
     if (name == beside) // with itself: there already
+      continue;
+    if (policies::make_codm(name)->program())
       continue;
     const auto taken = is_among(name, all);
     all.push_back({fmt::format("{}{}", taken ? "codm:" : "", name),
@@ -138,7 +165,9 @@ std::vector<entrant> parse_entrants(std::string_view text,
           "{}: an entrant is a table, {{ lodm = POLICY, codm = POLICY }}.",
           place)};
     read_policies(line, file);
-    const auto& policies = *line.as_table();
+    auto& policies = *line.as_table();
+    for (const auto* side : {"lodm", "codm"})
+      anchor(policies, side, std::filesystem::path{file}.parent_path());
     all.push_back({std::string{key.str()}, text_of(policies, "lodm"),
                    text_of(policies, "codm")});
   }
@@ -158,6 +187,8 @@ std::optional<entrant> own_entrant(const std::filesystem::path& scenario) {
   auto* policies = root["policies"].as_table();
   if (!policies || are_usual(read_policies(*policies, scenario.string())))
     return std::nullopt;
+  for (const auto* side : {"lodm", "codm"})
+    anchor(*policies, side, scenario.parent_path());
   return entrant{name, text_of(*policies, "lodm"), text_of(*policies, "codm")};
 }
 

@@ -20,14 +20,15 @@ struct entrant {
   sweep_axis::value as_value() const;
 };
 
-/// @returns an entrant for each policy that there is, with its default options,
-/// beside "location" on the other side, "oracle" beside "assignment": first
-/// LODMs, then CODMs. One is called
-/// after its policy; a CODM whose name an LODM has too, "codm:NAME".
+/// @returns an entrant for each policy that there is, but "process", with its
+/// default options, beside "location" on the other side, "oracle" beside
+/// "assignment": first LODMs, then CODMs. One is called after its policy; a
+/// CODM whose name an LODM has too, "codm:NAME".
 std::vector<entrant> plain_entrants();
 
 /// Reads more of them, a line each: NAME = { lodm = POLICY, codm = POLICY },
-/// with a policy as scenarios have it; "location" for what is left out.
+/// with a policy as scenarios have it; "location" for what is left out. Files
+/// that they name are sought from the folder of this file on.
 /// @throws input_error with the place of the first mistake.
 std::vector<entrant> load_entrants(const std::filesystem::path& file);
 

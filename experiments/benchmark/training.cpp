@@ -5,9 +5,11 @@
 #include "base/input_error.hpp"
 #include "base/stopwatch.hpp"
 #include "messages/protocol/no_records.hpp"
+#include "policies/algorithms/learning/snapshot_file.hpp"
 #include "policies/registry.hpp"
 #include "scenario/build.hpp"
 #include "scenario/load.hpp"
+#include "scenario/running_programs.hpp"
 #include "scenario/runtime.hpp"
 
 #include <fmt/format.h>
@@ -17,6 +19,7 @@
 #include <iterator>
 #include <memory>
 #include <ostream>
+#include <stdexcept>
 #include <utility>
 
 namespace sofof::experiments::bench {
@@ -37,16 +40,22 @@ std::vector<std::string> learners() {
 }
 
 /// Drives until the end, or until it is interrupted.
-void drive(const scenario::scenario_definition& s,
+void drive(scenario::scenario_definition s,
            const std::atomic<bool>& interrupted) {
+  const scenario::running_programs programs{s};
+  std::string failure;
+  programs.on_failure([&](const std::string& why) { failure = why; });
   const auto time = scenario::make_virtual_runtime();
   const auto actors = scenario::build(time->system(), s,
                                       std::make_shared<messages::no_records>(),
                                       time->clock(), true);
   const auto end = time->now() + s.length;
-  while (time->now() < end && !interrupted)
+  while (time->now() < end && !interrupted && failure.empty())
     time->run_until(std::min(time->now() + a_moment, end));
   scenario::dismiss(actors, *time);
+  programs.end();
+  if (!failure.empty())
+    throw std::runtime_error{failure};
 }
 
 class school_days {
@@ -77,12 +86,13 @@ public:
         auto s =
             lesson(file, first_training_seed + static_cast<std::int64_t>(k));
         s.policies.lodm = pupil_;
-        drive(s, interrupted_);
+        drive(std::move(s), interrupted_);
       }
     shown_.clear();
     if (interrupted_)
       return false;
-    write_file(options_.out, pupil_->snapshot(), choose);
+    write_file(options_.out,
+               policies::snapshot_file(header(), pupil_->snapshot()), choose);
     return true;
   }
 
@@ -104,6 +114,19 @@ private:
                       "by --policy.",
                       options_.policy)};
     return s;
+  }
+
+  policies::snapshot_header header() const {
+    policies::snapshot_header all;
+    all.policy = options_.policy;
+    all.shape = pupil_->learned_from()->shape;
+    for (const auto& file : options_.scenarios)
+      all.scenarios.push_back(file.stem().string());
+    all.changes = options_.set;
+    all.first_seed = first_training_seed;
+    all.seeds = options_.seeds;
+    all.program = options_.version;
+    return all;
   }
 
   void tell(std::size_t k, const std::filesystem::path& file) {

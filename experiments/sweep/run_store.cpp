@@ -5,6 +5,7 @@
 #include "base/input_error.hpp"
 #include "base/options/toml_file.hpp"
 #include "scenario/run.hpp"
+#include "scenario/running_programs.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -79,6 +80,8 @@ std::string name_of_run(const scenario::scenario_definition& s,
                                       s.trace_text};
   if (!s.policies.forecast.text.empty())
     texts.push_back(s.policies.forecast.text);
+  const auto keys = scenario::keys_of_policies(s);
+  texts.insert(texts.end(), keys.begin(), keys.end());
   for (const auto& p : s.providers)
     if (!p.map_text.empty())
       texts.push_back(p.map_text);

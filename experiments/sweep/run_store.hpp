@@ -17,7 +17,9 @@ namespace sofof::experiments {
 
 /// @param program  Tells programs apart whose results may differ.
 /// @returns the name of the run of this scenario: the same for the same
-/// configuration, map, trace and program.
+/// configuration, map, trace, program, and programs that decide; new in each
+/// process where one of these tells no version.
+/// @throws as `scenario::keys_of_policies`.
 std::string name_of_run(const scenario::scenario_definition& s,
                         std::string_view program);
 

@@ -1,6 +1,8 @@
 // The runs of all plans, and a shard's part of them.
 #include "experiments/sweep/sharded_sweep.hpp"
 
+#include "base/input_error.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,6 +40,9 @@ shard_outcome make_shard(std::span<const sweep_plan> plans,
                          std::ostream& console) {
   assert(which.number >= 1 && which.number <= which.of);
   auto all = runs_wanted_by_all(plans, options.program, interrupted);
+  for (const auto& run : all.runs)
+    if (run.unrepeatable)
+      throw input_error{*run.unrepeatable};
   const auto shard_of = share_out(all.runs, which.of);
   std::vector<wanted_run> own;
   for (std::size_t i = 0; i < all.runs.size(); ++i)

@@ -6,6 +6,7 @@
 #include "experiments/sweep/run_store.hpp"
 #include "scenario/load.hpp"
 #include "scenario/placement.hpp"
+#include "scenario/running_programs.hpp"
 
 #include <fmt/format.h>
 
@@ -48,7 +49,8 @@ wanted_runs runs_wanted_by(const sweep_plan& plan, std::string_view program,
         all.runs.push_back({name, plan.scenario, point.given,
                             fmt::format("point {} ({})", i + 1, described),
                             cost_of(s),
-                            plan.measures && point.seed == plan.seeds.front()});
+                            plan.measures && point.seed == plan.seeds.front(),
+                            scenario::unrepeatable_program(s)});
     } catch (const std::exception& problem) {
       if (first_problem.empty())
         first_problem =

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,8 @@ struct wanted_run {
   std::string point;              ///< The first that wants it, for people.
   double cost = 0;          ///< About proportional to its computing time, > 0.
   bool is_measured = false; ///< Its plan wants it from one machine.
+  /// Why it is made anew each time, if it is.
+  std::optional<std::string> unrepeatable{};
 };
 
 /// What became of the points of a sweep.

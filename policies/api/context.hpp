@@ -112,6 +112,7 @@ struct local_context {
   /// Where it runs, in case a filter keeps that from `providers`:
   /// `where_it_runs`.
   const provider_view* here = nullptr;
+  station_id station = 0; ///< Of the vehicle.
   /// What results will be like along the path, by provider; empty for a policy
   /// that does not want it (`policy::needs_forecast`), or without a source.
   std::span<const provider_forecast> forecasts{};

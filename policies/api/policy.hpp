@@ -6,6 +6,7 @@
 #include "base/reason.hpp"
 #include "base/time.hpp"
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -22,6 +23,7 @@ struct cycle_outcome {
   bool missed = false;       ///< Later than the limit, or not at all.
   double energy_j = 0;       ///< Of the vehicle, for each of them.
   double cycles = 1;         ///< How many it stands for, > 0.
+  station_id station = 0;    ///< Of the vehicle.
 };
 
 /// A request that came to nothing.
@@ -29,7 +31,8 @@ struct refusal_outcome {
   time_point at;
   std::string_view service; ///< Its name.
   provider_id provider = 0;
-  std::string_view why; ///< As the provider says; "no answer" if it does not.
+  std::string_view why;   ///< As the provider says; "no answer" if it does not.
+  station_id station = 0; ///< Of the vehicle.
 };
 
 /// What one whole offloading was like.
@@ -39,6 +42,25 @@ struct episode_outcome {
   double remote_s = 0;         ///< Time on the remote source.
   std::string_view end_reason; ///< One of protocol's reasons.
   station_id station = 0;      ///< Of the vehicle.
+};
+
+/// A program that decides in place of a policy, as options name it.
+template <class Policy>
+struct program_use {
+  std::string
+      command;        ///< Program and arguments, as `command_words` reads them.
+  std::string folder; ///< Where it runs, relative to `origin`.
+  duration time_limit = std::chrono::seconds{5}; ///< For each answer, > 0.
+  /// Folder of the file that names it, once that is known.
+  std::string origin{};
+  /// Asks it; null until a run connects it. Shared by all clones.
+  std::shared_ptr<Policy> decider{};
+};
+
+/// A file with what a learner has learned before.
+struct snapshot_use {
+  std::string file;  ///< As options name it; empty: none.
+  std::string shape; ///< What has to be the same to use it, in words.
 };
 
 /// Decides from a context and nothing else: the same context (and learned
@@ -95,6 +117,12 @@ public:
   virtual std::optional<std::string> restore(std::string_view) {
     return "this policy learns nothing";
   }
+
+  /// @returns the program that decides in its place; null where there is none.
+  virtual program_use<policy>* program() { return nullptr; }
+  /// @returns the file that it has learned from, or may; null if it learns
+  /// nothing that lasts.
+  virtual snapshot_use* learned_from() { return nullptr; }
 
   /// Lists the options once (base/options/option_visitor.hpp).
   virtual void visit_options(option_visitor&) {}

@@ -54,6 +54,8 @@ private:
 
 class alto_lodm final : public bandit_lodm {
 public:
+  alto_lodm() : bandit_lodm{"delays of places, version 1"} {}
+
   void visit_options(option_visitor& s) override {
     bandit_lodm::visit_options(s);
     s.field("beta", beta_, {0, 1e3});

@@ -6,6 +6,8 @@
 #include "policies/api/weights.hpp"
 #include "policies/entry.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -89,7 +91,7 @@ std::optional<std::string> places::restore(std::string_view text) {
   const auto rest = in.after_end();
   if (in.failed())
     return in.fault();
-  if (auto fault = read.bandit_.restore(rest))
+  if (auto fault = read.bandit_.restore(placed_in(text, rest)))
     return fault;
   *this = std::move(read);
   return std::nullopt;
@@ -97,6 +99,9 @@ std::optional<std::string> places::restore(std::string_view text) {
 
 class ucb1_lodm final : public bandit_lodm {
 public:
+  ucb1_lodm()
+      : bandit_lodm{fmt::format("up to {} places, version 1", most_arms)} {}
+
   void visit_options(option_visitor& s) override {
     bandit_lodm::visit_options(s);
     list_weights(s, weights_);

@@ -41,7 +41,8 @@ both = { lodm = { name = "least_loaded", most = 0.5 }, codm = "edf" }
 
 TEST_CASE("every policy takes part beside location, and location once") {
   const auto all = plain_entrants();
-  CHECK(all.size() == lodm_names().size() + codm_names().size() - 1);
+  // Of "location" there is one, of "process" none.
+  CHECK(all.size() == lodm_names().size() + codm_names().size() - 3);
   std::set<std::string> names;
   for (const auto& one : all)
     names.insert(one.name);
@@ -75,6 +76,25 @@ TEST_CASE("an entrant of a file has its options, and location for the rest") {
         == std::vector<std::string>{
             R"(policies.lodm={ most = 0.5, name = "least_loaded" })",
             "policies.codm=edf"});
+}
+
+TEST_CASE("files that an entrant names are sought from its own file on, "
+          "wherever the scenario is") {
+  const auto all = parse_entrants(
+      "mine = { lodm = { name = \"process\", command = \"./mine\" } }\n"
+      "its = { codm = { name = \"process\", command = \"x\", folder = \"of\" } "
+      "}\n"
+      "taught = { lodm = { name = \"dqn\", snapshot = \"dqn.txt\" } }\n"
+      "there = { lodm = { name = \"dqn\", snapshot = \"/a/dqn.txt\" } }\n",
+      "/some/where/mine.toml");
+  CHECK(find(all, "mine").lodm.find("folder = \"/some/where\"")
+        != std::string::npos);
+  CHECK(find(all, "its").codm.find("folder = \"/some/where/of\"")
+        != std::string::npos);
+  CHECK(find(all, "taught").lodm.find("snapshot = \"/some/where/dqn.txt\"")
+        != std::string::npos);
+  CHECK(find(all, "there").lodm.find("snapshot = \"/a/dqn.txt\"")
+        != std::string::npos);
 }
 
 TEST_CASE("mistakes in a file of entrants are found where they stand") {

@@ -124,3 +124,29 @@ TEST_CASE("the first seed of a plan that measures belongs to the first shard") {
                four.console);
   CHECK_FALSE(four.made.seeds.contains(1));
 }
+
+TEST_CASE("where a program decides, its runs are found again while it and its "
+          "version are the same; without a version never, nor by shards") {
+  shards_of_four four;
+  const auto decides = [&](std::string_view version) {
+    std::ofstream{four.at / "decides.sh"}
+        << "read hello; echo '{\"sofof\":1,\"name\":\"mine\"" << version
+        << "}'; read bye\n";
+  };
+  std::ofstream{four.at / "base.toml"}
+      << four_base
+      << "[policies]\nlodm = { name = \"process\", command = \"/bin/sh "
+         "decides.sh\" }\n";
+  decides(",\"version\":\"1\"");
+  four.run();
+  four.run();
+  CHECK(four.made.seeds.size() == 4);
+  CHECK(four.make(1, 1).found == 4);
+  decides(",\"version\":\"2\"");
+  four.run();
+  CHECK(four.made.seeds.size() == 8);
+  decides("");
+  CHECK_THROWS_WITH_AS(four.make(1, 2), doctest::Contains("tells no version"),
+                       input_error);
+  CHECK(four.made.seeds.size() == 8);
+}

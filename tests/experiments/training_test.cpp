@@ -2,6 +2,7 @@
 #include "experiments/benchmark/training.hpp"
 
 #include "base/input_error.hpp"
+#include "policies/algorithms/learning/snapshot_file.hpp"
 #include "policies/registry.hpp"
 #include "tests/support/bench_town.hpp"
 #include "tests/support/contains.hpp"
@@ -51,14 +52,21 @@ struct school {
 } // namespace
 
 TEST_CASE_FIXTURE(school, "what is learned is a snapshot for the same policy") {
-  for (const std::string name : {"q_learning", "dqn"}) {
+  options.version = "0.1.0";
+  options.seeds = 2;
+  for (const std::string name : {"q_learning", "dqn", "ucb1", "alto"}) {
+    CAPTURE(name);
     options.policy = name;
     REQUIRE(train());
     const auto lodm = make_lodm(name);
     const auto before = lodm->snapshot();
-    CHECK(!lodm->restore(learned()));
-    CHECK(lodm->snapshot() == learned());
+    CHECK(!restore_from(learned(), *lodm));
+    CHECK(lodm->snapshot() == learned_in(learned()));
     CHECK(lodm->snapshot() != before);
+    CHECK(learned().starts_with("sofof snapshot 1\npolicy " + name + '\n'));
+    CHECK(contains(learned(), "\nscenario town\nset duration=20s\n"
+                              "set policies.codm=always\n"
+                              "seeds 1000 to 1001\nprogram 0.1.0\n"));
   }
 }
 
@@ -81,7 +89,7 @@ TEST_CASE_FIXTURE(school, "who does not learn by driving is refused, with a "
   for (const auto* name : {"location", "oracle", "no_such"}) {
     options.policy = name;
     CHECK(contains(refusal(), std::string{"\""} + name));
-    CHECK(contains(refusal(), "dqn, q_learning"));
+    CHECK(contains(refusal(), "alto, dqn, q_learning, ucb1"));
   }
 }
 
@@ -104,7 +112,7 @@ TEST_CASE_FIXTURE(school, "settings that would teach nobody are refused") {
   }
   options.set.emplace_back("policies.lodm.learning=false"); // it learns, though
   train();
-  CHECK(learned() != make_lodm("q_learning")->snapshot());
+  CHECK(learned_in(learned()) != make_lodm("q_learning")->snapshot());
 }
 
 TEST_CASE_FIXTURE(school, "who is interrupted writes nothing") {

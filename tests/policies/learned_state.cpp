@@ -175,7 +175,7 @@ TEST_CASE_TEMPLATE("a spoilt snapshot is refused and changes nothing, or is "
     const auto before = one.learner.snapshot();
     if (const auto reason = one.learner.restore(spoilt)) {
       ++refused;
-      CHECK(reason->starts_with("word "));
+      CHECK(reason->starts_with("line "));
       CHECK(one.learner.snapshot() == before);
       continue;
     }
@@ -191,16 +191,17 @@ TEST_CASE_TEMPLATE("a spoilt snapshot is refused and changes nothing, or is "
 TEST_CASE("a refusal says what is wrong and where") {
   ucb1 bandit{2};
   CHECK(*bandit.restore("sofof ucb1 2 arms 2")
-        == "word 3: expected ucb1 1, found 2.");
+        == "line 1, word 3: expected ucb1 1, found 2.");
   CHECK(*bandit.restore("sofof ucb1 1 arms 3")
-        == "word 5: expected arms 2, found 3.");
+        == "line 1, word 5: expected arms 2, found 3.");
   CHECK(*bandit.restore("sofof ucb1 1 arms 2 0.5 1 x 1")
-        == "word 8: expected a number, found \"x\".");
+        == "line 1, word 8: expected a number, found \"x\".");
   CHECK(*bandit.restore("sofof ucb1 1 arms 2 0.5 1 inf 1")
-        == "word 8: expected a finite number.");
+        == "line 1, word 8: expected a finite number.");
   CHECK(*bandit.restore("sofof ucb1 1 arms 2 0.5 1 2 1")
-        == "word 9: expected rewards from 0 to 1.");
-  CHECK(*bandit.restore("") == "word 1: expected \"sofof\", found \"\".");
+        == "line 1, word 9: expected rewards from 0 to 1.");
+  CHECK(*bandit.restore("")
+        == "line 1, word 1: expected \"sofof\", found \"\".");
 }
 
 TEST_CASE("ALTO's providers appear once, and not in the future") {
@@ -219,7 +220,7 @@ TEST_CASE("ALTO refuses delays in parts of another worst one") {
   alto_options options;
   options.worst_delay_s_per_bit = 1e-6;
   CHECK(*alto{options}.restore(alto{{}}.snapshot())
-        == "word 5: expected the worst delay of this learner.");
+        == "line 1, word 5: expected the worst delay of this learner.");
 }
 
 TEST_CASE("every double reads back to the bit") {

@@ -7,9 +7,11 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace sofof::policies {
@@ -41,9 +43,12 @@ public:
 /// Tries each service of a vehicle for a while where a bandit of its own says.
 /// A trial ends early when the place refuses, when the service does not run
 /// there any more, or when the place does not come into question any more.
+///
+/// A clone has bandits of its own, which begin with what those of the other one
+/// had learned; with `learning` all clones share them, and every vehicle of a
+/// run teaches them.
 class bandit_lodm : public local_policy {
 public:
-  bandit_lodm() = default;
   bandit_lodm(const bandit_lodm& other) : local_policy{} { *this = other; }
   bandit_lodm& operator=(const bandit_lodm& other);
 
@@ -52,28 +57,38 @@ public:
   void observe(const refusal_outcome& outcome) override;
   void observe(const episode_outcome& outcome) override;
   double epoch_s() const override { return epoch_s_; }
+  snapshot_use* learned_from() override { return &learned_from_; }
   std::string snapshot() const override;
   std::optional<std::string> restore(std::string_view text) override;
   void visit_options(option_visitor& s) override;
 
 protected:
+  /// @param shape  `snapshot_use::shape`.
+  explicit bandit_lodm(std::string shape)
+      : learned_from_{{}, std::move(shape)} {}
+
   /// @returns a bandit that knows nothing.
   virtual std::unique_ptr<bandit> make_bandit() const = 0;
 
 private:
-  struct service {
-    std::unique_ptr<bandit> learner;
-    bandit_trial now;
+  /// By the names of services.
+  using bandits = std::map<std::string, std::unique_ptr<bandit>, std::less<>>;
+  struct shared_bandits {
+    bandits all;
+    std::mutex busy;
   };
-  using services = std::map<std::string, service, std::less<>>;
 
-  service& of(std::string_view name);
+  bandit& learner_of(std::string_view name) const;
+  bandit_trial& trial_of(std::string_view name);
   bandit_trial* running(std::string_view name, service_place place);
-  void conclude(service& tried, time_point now) const;
+  void conclude(std::string_view name, time_point now);
 
+  bool learning_ = false;
+  snapshot_use learned_from_;
   duration trial_ = std::chrono::seconds{2};
   double epoch_s_ = 0.1;
-  services services_;
+  std::shared_ptr<shared_bandits> shared_ = std::make_shared<shared_bandits>();
+  std::map<std::string, bandit_trial, std::less<>> trials_;
 };
 
 /// @returns what is said of the options of `bandit_lodm`, then `others`.

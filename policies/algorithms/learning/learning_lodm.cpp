@@ -1,6 +1,8 @@
 // A learner as the decision of a vehicle.
 #include "policies/algorithms/learning/learning_lodm.hpp"
 
+#include "policies/algorithms/learning/snapshot_file.hpp"
+
 #include <algorithm>
 #include <array>
 #include <stdexcept>
@@ -29,7 +31,8 @@ learning_lodm::learning_lodm(make_q_function make, const learner_options& how,
 
 learning_lodm::learning_lodm(const learning_lodm& other)
     : local_policy{}, make_{other.make_}, frozen_{other.frozen_},
-      options_{other.options_}, shared_{other.shared_} {
+      options_{other.options_},
+      learned_from_{other.learned_from_}, shared_{other.shared_} {
   if (options_.learning)
     return;
   const std::lock_guard lock{other.shared_->busy};
@@ -40,9 +43,10 @@ learning_lodm::learning_lodm(const learning_lodm& other)
 void learning_lodm::renew_mind() {
   shared_ = std::make_shared<shared_learner>();
   shared_->taught = make_(options_.how);
+  learned_from_.shape = shared_->taught->shape();
   if (options_.learning || frozen_.empty())
     return;
-  if (const auto fault = shared_->taught->restore(frozen_))
+  if (const auto fault = shared_->taught->restore(learned_in(frozen_)))
     throw std::logic_error{"a snapshot that came with the program: " + *fault};
 }
 
@@ -167,6 +171,7 @@ void learning_lodm::visit_options(option_visitor& s) {
   const auto learned = options_.learning;
   const auto how = options_.how;
   s.field("learning", options_.learning);
+  s.field("snapshot", learned_from_.file); // whoever loads it restores it
   s.field("discount", options_.how.discount, {0, 1});
   s.field("explore_first", options_.how.explore.first, {0, 1});
   s.field("explore_last", options_.how.explore.last, {0, 1});
@@ -185,7 +190,10 @@ void learning_lodm::visit_options(option_visitor& s) {
 std::vector<option_info> learning_notes() {
   return {
       {"learning", "true or false",
-       "from nothing, all vehicles together; else by its snapshot"},
+       "from its snapshot on, or from nothing, all vehicles together"},
+      {"snapshot", "file",
+       "what it has learned, of sofof train; empty: what came along, if it "
+       "does not learn"},
       {"discount", "1", "of the next step's reward, while learning"},
       {"explore_first", "1", "share of random decisions at first"},
       {"explore_last", "1", "and from so many decisions on:"},

@@ -50,6 +50,7 @@ public:
   double epoch_s() const override { return options_.epoch_s; }
   std::string snapshot() const override;
   std::optional<std::string> restore(std::string_view text) override;
+  snapshot_use* learned_from() override { return &learned_from_; }
   void visit_options(option_visitor& s) override;
 
 private:
@@ -99,6 +100,7 @@ private:
   make_q_function make_;
   std::string_view frozen_;
   options options_;
+  snapshot_use learned_from_;
   std::shared_ptr<shared_learner> shared_;
   std::map<std::string, service, std::less<>> services_;
 };

@@ -26,6 +26,10 @@ double time_left_s(const offloading_view& view);
 /// 0.7, 0.9, more), and two of where it runs.
 inline constexpr std::size_t offloading_cells = 160;
 
+/// Grows by one when what a cell or a feature means changes: what was learned
+/// before does not fit any more.
+inline constexpr std::size_t offloading_version = 1;
+
 /// @returns the cell, below `offloading_cells`.
 std::size_t cell_of(const offloading_view& view);
 

@@ -4,6 +4,8 @@
 #include "policies/algorithms/learning/dqn.hpp"
 #include "policies/algorithms/learning/q_learning.hpp"
 
+#include <fmt/format.h>
+
 #include <span>
 
 namespace sofof::policies {
@@ -33,6 +35,10 @@ public:
     if (step.next)
       sample.next = step.next->cell;
     learner_.learn(sample);
+  }
+  std::string shape() const override {
+    return fmt::format("{} states, {} actions, version {} of what is seen",
+                       offloading_cells, actions, offloading_version);
   }
   std::string snapshot() const override { return learner_.snapshot(); }
   std::optional<std::string> restore(std::string_view text) override {
@@ -66,6 +72,12 @@ public:
     if (step.next)
       next = step.next->features;
     learner_.learn({step.state.features, step.action, step.reward, next, both});
+  }
+  std::string shape() const override {
+    return fmt::format("{} features, {} actions, width {}, version {} of what "
+                       "is seen",
+                       offloading_features, actions, network_shape{}.width,
+                       offloading_version);
   }
   std::string snapshot() const override { return learner_.snapshot(); }
   std::optional<std::string> restore(std::string_view text) override {

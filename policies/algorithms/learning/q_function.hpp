@@ -41,6 +41,8 @@ public:
   virtual std::size_t explore(const mind_state& state) = 0;
   virtual void learn(const mind_step& step) = 0;
 
+  /// @returns what its snapshots fit to, in words.
+  virtual std::string shape() const = 0;
   virtual std::string snapshot() const = 0;
   virtual std::optional<std::string> restore(std::string_view text) = 0;
   virtual std::unique_ptr<q_function> clone() const = 0;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 
@@ -108,14 +109,17 @@ void state_reader::expect_end() {
 
 void state_reader::refuse(std::string_view reason) {
   if (!failed())
-    fault_ = "word " + digits(words_read_) + ": " + std::string{reason};
+    fault_ = "line " + digits(line_) + ", word " + digits(words_read_) + ": "
+             + std::string{reason};
 }
 
 std::string_view state_reader::next() {
   if (failed())
     return {};
-  rest_.remove_prefix(
-      std::min(rest_.find_first_not_of(between_words), rest_.size()));
+  const auto blanks = rest_.substr(
+      0, std::min(rest_.find_first_not_of(between_words), rest_.size()));
+  line_ += static_cast<std::size_t>(std::ranges::count(blanks, '\n'));
+  rest_.remove_prefix(blanks.size());
   const auto word = rest_.substr(
       0, std::min(rest_.find_first_of(between_words), rest_.size()));
   rest_.remove_prefix(word.size());
@@ -133,6 +137,15 @@ Number state_reader::read(std::string_view wanted) {
     return number;
   refuse("expected " + std::string{wanted} + ", found " + quoted(word) + ".");
   return 0;
+}
+
+std::string placed_in(std::string_view whole, std::string_view part) {
+  assert(whole.data() <= part.data());
+  assert(part.data() + part.size() <= whole.data() + whole.size());
+  const auto before =
+      whole.substr(0, static_cast<std::size_t>(part.data() - whole.data()));
+  const auto lines = std::ranges::count(before, '\n');
+  return std::string(static_cast<std::size_t>(lines), '\n').append(part);
 }
 
 } // namespace sofof::policies

@@ -48,7 +48,7 @@ public:
   void expect_end();
 
   /// Ends reading, unless it has ended already.
-  /// @param reason  Goes after "word 12: ".
+  /// @param reason  Goes after "line 3, word 12: ".
   void refuse(std::string_view reason);
 
   bool failed() const { return fault_.has_value(); }
@@ -66,7 +66,13 @@ private:
 
   std::string_view rest_;
   std::uint64_t words_read_ = 0;
+  std::size_t line_ = 1; // of the last one
   std::optional<std::string> fault_;
 };
+
+/// @param part  Of `whole`.
+/// @returns it with as many line ends before it as there, so that complaints
+/// have the lines of the whole.
+std::string placed_in(std::string_view whole, std::string_view part);
 
 } // namespace sofof::policies
