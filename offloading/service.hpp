@@ -4,6 +4,7 @@
 
 #include "base/options/option_visitor.hpp"
 #include "messages/protocol/qos.hpp"
+#include "messages/protocol/record.hpp"
 #include "messages/protocol/service.hpp"
 #include "offloading/result_judge.hpp"
 #include "offloading/service_function.hpp"
@@ -112,6 +113,9 @@ struct vehicle_context {
   /// No time passes in a cycle, and what is left of one that has begun must not
   /// read the clock.
   bool virtual_time = false;
+  /// Records what has happened to a function, in a turn of its own; may be
+  /// empty.
+  std::function<void(messages::event_record)> report{};
 };
 
 /// The longest response time under which a vehicle's scene is safe, from what
@@ -176,6 +180,7 @@ struct provider_context {
   std::function<time_point()> clock = [] { return time_point{}; };
   provider_id id = 0;        ///< Another one after each start.
   bool virtual_time = false; ///< As in a vehicle.
+  std::function<void(messages::event_record)> report{}; ///< Likewise.
 };
 
 /// A service at one provider. Where time is real, functions of several sessions

@@ -65,10 +65,11 @@ void service_cycle::on_step(messages::lifecycle_step step, time_point now) {
     return;
   state_ = *next;
   stop_timer();
-  if (state_ == messages::lifecycle_state::active)
-    begin(now);
   if (state_ == messages::lifecycle_state::finalized)
     end_last();
+  setup_.function->on_step(step, now);
+  if (state_ == messages::lifecycle_state::active)
+    begin(now);
   assert(is_consistent());
 }
 

@@ -1,6 +1,7 @@
 // What a service computes: from an input to a result, cycle by cycle.
 #pragma once
 
+#include "messages/protocol/lifecycle.hpp"
 #include "messages/protocol/service.hpp"
 
 #include <functional>
@@ -50,6 +51,14 @@ public:
   /// should be as good when it has to take over at once; it computes no result.
   virtual void observe(time_point /*now*/,
                        const messages::service_input& /*input*/) {}
+
+  /// Its life cycle takes a step; before the first cycle that follows from it,
+  /// and perhaps while the pool computes what `begin` has left.
+  virtual void on_step(messages::lifecycle_step /*step*/, time_point /*now*/) {}
+
+  /// @returns whether a cycle may wait for something that is no computing:
+  /// where time is real, the function then has a thread of its own.
+  virtual bool blocks() const { return false; }
 };
 
 } // namespace sofof::offloading

@@ -18,8 +18,10 @@
 #include "messages/broadcast/decode_broadcast.hpp"
 #include "scenario/channel_oracle.hpp"
 #include "scenario/placement.hpp"
+#include "scenario/plan_limits.hpp"
 #include "scenario/vehicle_connections.hpp"
 #include "scenario/vehicle_schedule.hpp"
+#include "scenario/vehicle_views.hpp"
 
 #include <caf/exit_reason.hpp>
 #include <caf/send.hpp>
@@ -40,26 +42,6 @@ random_stream noise_of(const scenario_definition& s, std::string_view what) {
 
 /// So long what was said last may take to leave this process.
 constexpr duration last_words = std::chrono::milliseconds{200};
-
-/// A plan is fresh up to the longest time between two usable ones.
-/// Source: latency limit + gap limit + one planning period.
-duration fresh_limit(const scenario_definition& s) {
-  const auto* planning = planning_service(s);
-  if (!planning)
-    return {};
-  const auto& options = planning->options;
-  return options.limits.max_latency + options.limits.max_interarrival
-         + options.period;
-}
-
-/// @returns after which time without a new plan nobody plans any more. A remote
-/// plan was held against the bodies in sight for 2.5 s: braking after a second
-/// ends within the way of these, up to some 10 m/s.
-duration alone_limit(const scenario_definition& s) {
-  return planning_service(s)
-             ? std::max<duration>(std::chrono::seconds{1}, 3 * fresh_limit(s))
-             : duration{};
-}
 
 /// @returns those of providers; none where the cars drive in other processes:
 /// they would tell of an empty road, and speak against every car.
@@ -163,7 +145,7 @@ public:
             [where = where_](const messages::its_pdu& message, time_point now) {
               return messages::decode(message, *where, now);
             }} {
-    services_ = services_in(s.world, {});
+    services_ = services_in(s.world, {}, {});
     if (on_loss)
       world_.supervisor = actors::spawn_supervisor(sys, std::move(on_loss));
     world_.recorder = actors::spawn_recorder(sys_, std::move(sink));
@@ -200,13 +182,16 @@ private:
 
   /// @param streets  What is known of them where the services run.
   /// @param beside   The sensors that tell what they see there.
+  /// @param programs What runs there in place of programs of services.
   std::vector<offloading::service>
   services_in(const world::streets_ptr& streets,
-              std::span<const roadside_options> beside) const {
+              std::span<const roadside_options> beside,
+              const std::vector<actors::program_at_provider>& programs) const {
     actors::service_world known{
         streets, where_, {}, s_.traffic.grants_crossings(), s_.sensors, {}};
     if (const auto* planning = planning_service(s_))
       known.rss = planning->assumed();
+    known.programs = programs;
     for (const auto& options : beside) {
       const auto sensor = options.make({0, ""});
       known.roadside.push_back(sensor.view());
@@ -281,8 +266,9 @@ private:
     const auto beside = here_.serves_others
                             ? std::span<const roadside_options>{}
                             : std::span{options.sensors};
-    const auto services =
-        own || !beside.empty() ? services_in(streets, beside) : services_;
+    const auto services = own || !beside.empty() || !options.programs.empty()
+                              ? services_in(streets, beside, options.programs)
+                              : services_;
     for (const auto& service : services)
       if (options.offers(service.name.view()))
         setup.services.push_back(service);
@@ -335,8 +321,8 @@ private:
                  s_.record.tracks ? s_.record.tracks_period : duration{0},
                  roads_.of(v.way)};
     setup.appears_after = v.appears;
-    if (const auto* planning = planning_service(s_))
-      setup.plans = planning->plans();
+    const auto seeing = make_seeing_client(s_, where_);
+    setup.plans = seeing.plans;
     setup.sensor = s_.sensors;
     setup.where = where_;
     if (fleet.connected) {
@@ -350,7 +336,7 @@ private:
     setup.road = world_.road;
     setup.recorder = world_.recorder;
     setup.spawn_requester =
-        requester_maker(v, setup.car.road, std::move(future));
+        requester_maker(v, setup.car.road, seeing.view, std::move(future));
     world_.vehicles.push_back(actors::spawn_vehicle(sys_, std::move(setup)));
     watch(world_.vehicles.back(), fmt::format("vehicle {}", v.station));
   }
@@ -404,16 +390,18 @@ private:
       messages::onboard_requester_actor(const messages::vehicle_actor&)>
   requester_maker(
       const placed_vehicle& v, const planners::route_profile_ptr& road,
+      const std::shared_ptr<actors::vehicle_view>& view,
       std::shared_ptr<const policies::channel_oracle> future) const {
     std::vector<actors::client_service> services;
     for (std::size_t k = 0; k < services_.size(); ++k)
       services.push_back(
           {services_[k], [type = s_.services[k], station = v.station, road,
-                          recorder = world_.recorder,
+                          view, recorder = world_.recorder,
                           place = place_in_chain(s_, *s_.services[k])](
                              auto& sys, const auto& car) {
              return type
-                 ->spawn_client({sys, car, station, road, recorder, place})
+                 ->spawn_client(
+                     {sys, car, station, road, recorder, place, view})
                  .actor;
            }});
     if (const auto at_home = schedule_at_home(s_, v.fleet))

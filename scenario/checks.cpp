@@ -127,6 +127,26 @@ void check_scene_limits(const scenario_definition& all,
   }
 }
 
+/// Who gets inputs from a program, or runs one in place of it, names it.
+void check_programs(const scenario_definition& all, const toml_file& source) {
+  std::vector<std::string_view> programs;
+  for (const auto& type : all.services)
+    if (type->is_program())
+      programs.push_back(type->name());
+  const auto require = [&](const std::string& key, std::string_view name) {
+    if (std::ranges::find(programs, name) == programs.end())
+      source.refuse(key, unknown_word("[[service]] with a `command` here", name,
+                                      programs));
+  };
+  for (std::size_t k = 0; k < all.services.size(); ++k)
+    if (const auto used = all.services[k]->uses_results_of(); !used.empty())
+      require(fmt::format("service.{}.input.service", k), used);
+  for (std::size_t p = 0; p < all.providers.size(); ++p)
+    for (std::size_t k = 0; k < all.providers[p].programs.size(); ++k)
+      require(fmt::format("provider.{}.program.{}.service", p, k),
+              all.providers[p].programs[k].service);
+}
+
 void check_services(const scenario_definition& all, const toml_file& source) {
   std::vector<std::string_view> names;
   for (const auto& type : all.services) {
@@ -138,6 +158,7 @@ void check_services(const scenario_definition& all, const toml_file& source) {
   }
   check_chain(all, source);
   check_scene_limits(all, source);
+  check_programs(all, source);
   // Nobody else tells a vehicle where to drive.
   if (!planning_service(all))
     source.refuse("service", "there is no service \"trajectory_planning\"; "

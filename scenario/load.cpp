@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <mutex>
 #include <optional>
@@ -122,6 +123,34 @@ void load_forecast(scenario_definition& all, const fs::path& folder,
   forecast.places = read_quality(file, all);
 }
 
+/// Finds programs, and reads what they get.
+void load_programs(scenario_definition& all, const fs::path& folder,
+                   const toml_file& source) {
+  const auto try_to = [&source](const std::string& key, auto load) {
+    try {
+      load();
+    } catch (const std::invalid_argument& problem) {
+      source.refuse(key, fmt::format("{}.", problem.what()));
+    }
+  };
+  const auto read = [&all](const fs::path& file) {
+    all.program_texts.push_back(require_text(file));
+    all.read_from.push_back(file);
+  };
+  for (std::size_t k = 0; k < all.services.size(); ++k) {
+    const auto& type = all.services[k];
+    try_to(fmt::format("service.{}", k), [&] { type->load(folder); });
+    std::ranges::for_each(type->files(), read);
+  }
+  for (std::size_t p = 0; p < all.providers.size(); ++p)
+    for (std::size_t k = 0; k < all.providers[p].programs.size(); ++k) {
+      auto& program = all.providers[p].programs[k].what;
+      try_to(fmt::format("provider.{}.program.{}.command", p, k),
+             [&] { program.locate(folder); });
+      std::ranges::for_each(program.files(), read);
+    }
+}
+
 /// Gives everybody a channel, and computers as they fit to it.
 void complete_networks(scenario_definition& all) {
   const auto share = [&all](network_options& network) {
@@ -174,6 +203,8 @@ scenario_definition parse(std::string_view text, const fs::path& file,
   load_world(all, folder, source);
   load_provider_maps(all, folder, source);
   check_whole(all, source);
+  if (is_run)
+    load_programs(all, folder, source);
   return all;
 }
 

@@ -1,6 +1,7 @@
 // What a scenario says of its edge servers and of the air before them.
 #pragma once
 
+#include "actors/services/programs/program_options.hpp"
 #include "base/geometry.hpp"
 #include "base/options/option_helpers.hpp"
 #include "channel/channel_profile.hpp"
@@ -96,6 +97,8 @@ struct provider_options {
   /// Radio that reaches it: vehicles are stalled, and fade, on one radio at the
   /// same times; providers without a name share one.
   std::string radio;
+  /// What it runs in place of programs of services: `program` in the file.
+  std::vector<actors::program_at_provider> programs;
   std::optional<network_options> network; ///< Its own; else everybody's.
   std::optional<compute_options> compute; ///< Likewise.
   std::optional<duration> fails_at;       ///< It dies then, without goodbye,
@@ -140,6 +143,7 @@ struct provider_options {
                              "offer all.");
     }
     visit_list(s, "sensor", sensors);
+    visit_list(s, "program", programs);
     if (s.has("fails_at", fails_at.has_value()))
       s.field("fails_at", fails_at ? *fails_at : fails_at.emplace(), 1ns);
     if (s.has("returns_at", returns_at.has_value())) {

@@ -55,6 +55,34 @@ void visit_profile(option_visitor& s, std::string_view key, std::string& name) {
     s.refuse(key, unknown_word("channel profile", name, known));
 }
 
+bool may_be_service(std::string_view name) {
+  return !name.empty() && name.size() <= messages::service_name::max_size
+         && std::ranges::all_of(name, [](char c) {
+              return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9')
+                     || c == '_';
+            });
+}
+
+/// Lists a service by its name; one with a `command` is a program.
+void visit_service(option_visitor& s, actors::service_type_ptr& service) {
+  constexpr std::string_view program = "program";
+  if (!s.has("command", service && service->is_program()))
+    return visit_choice(s, service, actors::make_service_type,
+                        "kind of service", actors::service_type_names());
+  if (!service || !service->is_program())
+    service = actors::make_service_type(program);
+  std::string name{service->name()};
+  s.field("name", name);
+  if (name != program && actors::make_service_type(name))
+    s.refuse("name", fmt::format("is a function of SOFOF's own; name the "
+                                 "program \"my_{}\", or leave out `command`.",
+                                 name));
+  if (!may_be_service(name))
+    s.refuse("name", "must have 1 to 31 of the characters a-z, 0-9 and _.");
+  service->be_called(name);
+  service->visit_options(s);
+}
+
 } // namespace
 
 oriented_box obstacle_options::box() const {
@@ -253,8 +281,7 @@ void scenario_definition::visit_options(option_visitor& s) {
            [this](std::size_t i, option_visitor& t) {
              if (i == services.size())
                services.emplace_back();
-             visit_choice(t, services[i], actors::make_service_type,
-                          "kind of service", actors::service_type_names());
+             visit_service(t, services[i]);
            });
   s.table("policies", [this](option_visitor& t) { policies.visit_options(t); });
   s.table("record", [this](option_visitor& t) { record.visit_options(t); });

@@ -1,6 +1,9 @@
 // Services of a provider are found by name; each has one context.
 #include "actors/offloading/provider_services.hpp"
 
+#include "actors/offloading/measured_times.hpp"
+#include "actors/runtime/recorder.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,9 +28,11 @@ provider_services::provider_services(const provider_actor_setup& setup,
       virtual_time_{setup.virtual_time}, clock_{std::move(clock)},
       doubts_{doubts_per_s, doubts_at_once} {
   for (const auto& what : setup.services) {
-    services_.push_back(
-        at_provider(what, {provider_station(number_), setup.position, clock_,
-                           id_, virtual_time_}));
+    services_.push_back(at_provider(
+        what, {provider_station(number_), setup.position, clock_, id_,
+               virtual_time_, [recorder = setup.recorder](auto event) {
+                 send_record(recorder, std::move(event));
+               }}));
     auto* listener = listener_of(*services_.back().here);
     if (listener && std::ranges::find(listeners_, listener) == listeners_.end())
       listeners_.push_back(listener); // services may share it
@@ -39,13 +44,15 @@ provider_services::make(const offloading::session_start& start) const {
   const auto& service = *std::ranges::find(services_, start.session.service,
                                            &offloading::offered_service::name);
   auto made = cycle_of(service, start);
-  made.finish = computing_time(service, start.session.station);
+  made.finish = computing_time(service, made.function, start.session.station);
   return made;
 }
 
 std::function<offloading::cycle_work(time_point, std::uint64_t)>
-provider_services::computing_time(const offloading::offered_service& service,
-                                  station_id station) const {
+provider_services::computing_time(
+    const offloading::offered_service& service,
+    std::shared_ptr<const offloading::service_function> function,
+    station_id station) const {
   if (!virtual_time_)
     return [clock = clock_, load = load_, name = service.name](time_point start,
                                                                std::uint64_t) {
@@ -54,14 +61,19 @@ provider_services::computing_time(const offloading::offered_service& service,
         load->add(start, duration{0}, done - start, name.view());
       return offloading::cycle_work{done, done - start};
     };
-  return [draws = channel::result_draws(seed_, station, number_),
-          compute = compute_,
-          demand = world::demand_of(service.options.compute), queue = workers_,
-          name = service.name](time_point start, std::uint64_t cycle) {
-    const auto work = compute.computing_time(draws, cycle, demand);
-    return offloading::cycle_work{queue->finish(start, work, name.view()),
-                                  work};
-  };
+  return
+      [draws = channel::result_draws(seed_, station, number_),
+       compute = compute_, demand = world::demand_of(service.options.compute),
+       queue = workers_, name = service.name, function = std::move(function),
+       mean = service.options.compute.run_time_mean](time_point start,
+                                                     std::uint64_t cycle) {
+        const auto known = measured_time(*function, cycle);
+        const auto share =
+            known ? to_seconds(*known) / std::max(to_seconds(mean), 1e-9) : 1.0;
+        const auto work = compute.computing_time(draws, cycle, demand * share);
+        return offloading::cycle_work{queue->finish(start, work, name.view()),
+                                      work};
+      };
 }
 
 messages::event_record

@@ -48,6 +48,7 @@ public:
 private:
   std::function<offloading::cycle_work(time_point, std::uint64_t)>
   computing_time(const offloading::offered_service& service,
+                 std::shared_ptr<const offloading::service_function> function,
                  station_id station) const;
   messages::event_record record_of(const planners::station_doubt& doubt) const;
 

@@ -67,7 +67,10 @@ instance(instance_impl::stateful_pointer<instance_state> self,
 
 messages::instance_actor spawn_instance(caf::actor_system& sys,
                                         instance_setup setup) {
-  return sys.spawn(instance, std::move(setup));
+  const auto is_real = !dynamic_cast<helped_scheduler*>(&sys.scheduler());
+  return is_real && setup.cycle.function->blocks()
+             ? sys.spawn<caf::detached>(instance, std::move(setup))
+             : sys.spawn(instance, std::move(setup));
 }
 
 } // namespace sofof::actors

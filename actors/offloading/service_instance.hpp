@@ -14,7 +14,8 @@ struct instance_setup {
   messages::result_actor results; ///< Gets the result when the cycle is done.
 };
 
-/// Runs by the rules of offloading/service_cycle. Quits when finalized.
+/// Runs by the rules of offloading/service_cycle. Quits when finalized. One
+/// whose function blocks has a thread of its own where time is real.
 messages::instance_actor spawn_instance(caf::actor_system& sys,
                                         instance_setup setup);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "actors/services/planning/known_others.hpp"
+#include "actors/services/programs/program_options.hpp"
 #include "actors/simulation/plan_client.hpp"
 #include "base/options/option_visitor.hpp"
 #include "messages/v2x/georeference.hpp"
@@ -13,6 +14,7 @@
 #include "world/sensing/viewpoint.hpp"
 #include "world/vehicle/vehicle.hpp"
 
+#include <filesystem>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -32,6 +34,8 @@ struct service_world {
   /// What the services of a chain share at providers.
   std::shared_ptr<functions_beside> beside =
       std::make_shared<functions_beside>();
+  /// What the provider there runs in place of programs of services.
+  std::vector<program_at_provider> programs{};
 };
 
 // actors/simulation/service_client.hpp has both.
@@ -62,6 +66,23 @@ public:
   /// @returns how vehicles ask it for plans to drive by; null for a service
   /// that makes none.
   virtual std::shared_ptr<const plan_client> plans() const { return nullptr; }
+
+  /// Reads files that it needs to run.
+  /// @param beside  The folder of the scenario.
+  /// @throws std::invalid_argument in words for the user.
+  virtual void load(const std::filesystem::path& /*beside*/) {}
+
+  /// @returns the files that results depend on, besides what is built in.
+  virtual std::vector<std::filesystem::path> files() const { return {}; }
+
+  /// @returns whether its function is a program, and its name the scenario's.
+  virtual bool is_program() const { return false; }
+
+  /// Gives a program its name.
+  virtual void be_called(std::string_view /*name*/) {}
+
+  /// @returns the program whose results are its inputs; empty: none.
+  virtual std::string_view uses_results_of() const { return {}; }
 
   /// @returns how vehicles move at worst, as whoever looks at their scenes
   /// assumes it: what the service with `plans` says holds for all.

@@ -8,8 +8,11 @@
 #include <caf/actor_system.hpp>
 
 #include <cstdint>
+#include <memory>
 
 namespace sofof::actors {
+
+class vehicle_view; // actors/services/programs/vehicle_view.hpp
 
 /// Where a client is spawned.
 struct client_place {
@@ -19,6 +22,8 @@ struct client_place {
   planners::route_profile_ptr road{}; ///< Of its route; null: it has none.
   messages::recorder_actor recorder{};
   std::uint32_t place = 0; ///< Of the service in its chain, the first being 0.
+  /// For programs; null where there are none.
+  std::shared_ptr<vehicle_view> view{};
 };
 
 /// What a service's `spawn_client` has spawned.

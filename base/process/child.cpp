@@ -257,16 +257,20 @@ std::optional<child_end> child::poll_end() {
   return reap();
 }
 
-child_end child::stop(std::chrono::milliseconds grace) {
+std::optional<child_end> child::await_end(std::chrono::milliseconds longest) {
   constexpr std::chrono::milliseconds between_looks{1};
+  const auto last = clock::now() + longest;
+  while (!poll_end() && clock::now() < last)
+    std::this_thread::sleep_for(between_looks);
+  return end_;
+}
+
+child_end child::stop(std::chrono::milliseconds grace) {
   socket_ = {};
   if (poll_end())
     return *end_;
   kill(-pid_, SIGTERM);
-  const auto last = clock::now() + grace;
-  while (!poll_end() && clock::now() < last)
-    std::this_thread::sleep_for(between_looks);
-  if (!end_) {
+  if (!await_end(grace)) {
     kill(-pid_, SIGKILL);
     reap();
   }

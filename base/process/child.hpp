@@ -49,7 +49,7 @@ struct child_end {
 
 /// A running program in a process group of its own. It has one end of a socket
 /// pair as its standard input and output, and our standard error; no other file
-/// of ours is open in it. All calls but `stop` return at once.
+/// of ours is open in it. No call waits that does not say for what.
 class child {
 public:
   using clock = std::chrono::steady_clock;
@@ -82,6 +82,10 @@ public:
 
   /// @returns how it ended; nullopt while it runs.
   std::optional<child_end> poll_end();
+
+  /// Waits for its end.
+  /// @returns how it ended; nullopt if it still runs after this time.
+  std::optional<child_end> await_end(std::chrono::milliseconds longest);
 
   /// Closes the socket, asks it to end (SIGTERM), and kills it if it has not
   /// ended after this time.

@@ -85,6 +85,7 @@ std::string name_of_run(const scenario::scenario_definition& s,
   for (const auto& p : s.providers)
     if (!p.map_text.empty())
       texts.push_back(p.map_text);
+  texts.insert(texts.end(), s.program_texts.begin(), s.program_texts.end());
   std::string whole;
   for (const auto text : texts)
     whole += fmt::format("{}:{}", text.size(), text);

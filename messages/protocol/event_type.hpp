@@ -38,6 +38,8 @@ enum class event_type : std::uint8_t {
   doubted,
   believed,
   requester_lost,
+  program_lost, ///< One that serves as a function.
+  program_back,
   appeared,
   arrived,
   collision,
@@ -77,6 +79,8 @@ inline constexpr event_name event_names[]{
     {event_type::doubted, "doubted"},
     {event_type::believed, "believed"},
     {event_type::requester_lost, "requester_lost"},
+    {event_type::program_lost, "program_lost"},
+    {event_type::program_back, "program_back"},
     {event_type::appeared, "appeared"},
     {event_type::arrived, "arrived"},
     {event_type::collision, "collision"},

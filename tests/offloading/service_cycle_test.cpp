@@ -28,7 +28,11 @@ struct cycle_world : offloading::cycle_port {
     void observe(time_point at, const service_input& input) override {
       observed.emplace_back(at, input.what.as<echo>()->number);
     }
+    void on_step(lifecycle_step step, time_point) override {
+      steps.push_back(step);
+    }
     std::vector<std::pair<time_point, std::uint64_t>> observed;
+    std::vector<lifecycle_step> steps;
   };
 
   time_point now{1s};
@@ -113,6 +117,18 @@ TEST_CASE_FIXTURE(cycle_world, "a function that does not run observes each "
   CHECK(function->observed
         == std::vector{std::pair{time_point{1s}, std::uint64_t{1}},
                        std::pair{time_point{1060ms}, std::uint64_t{3}}});
+}
+
+TEST_CASE_FIXTURE(cycle_world, "a function is told each step that is taken") {
+  using enum lifecycle_step;
+  cycle.on_step(activate, now); // it is not configured
+  CHECK(function->steps.empty());
+  this->activate();
+  cycle.on_step(deactivate, now);
+  cycle.on_step(shut_down, now);
+  cycle.on_step(shut_down, now);
+  CHECK(function->steps
+        == std::vector{configure, activate, deactivate, shut_down});
 }
 
 TEST_CASE_FIXTURE(cycle_world, "a cycle that is activated again forgets the "

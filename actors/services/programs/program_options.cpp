@@ -1,0 +1,84 @@
+// Commands are words; what they mean is looked up beside the scenario.
+#include "actors/services/programs/program_options.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace sofof::actors {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// In virtual time a program may take so many times its limit.
+constexpr int patience_in_virtual_time = 10;
+
+std::chrono::milliseconds whole_ms(duration x) {
+  return std::chrono::ceil<std::chrono::milliseconds>(x);
+}
+
+} // namespace
+
+void program_options::visit_options(option_visitor& s) {
+  using namespace std::chrono_literals;
+  constexpr double most = 1 << 30;
+  s.field("command", command);
+  try {
+    if (command_words(command).empty())
+      s.refuse("command", "must name a program.");
+  } catch (const std::invalid_argument& problem) {
+    s.refuse("command", fmt::format("cannot be read: {}.", problem.what()));
+  }
+  s.field("memory_mib", memory_mib, {0, most});
+  s.field("cpu_s", cpu_s, {0, most});
+  if (s.has("cgroup", !cgroup.empty()))
+    s.field("cgroup", cgroup);
+  s.field("start_limit", start_limit, 1ms);
+  s.field("answer_limit", answer_limit, 1ms);
+  s.field("restart_pause", restart_pause, 1ms);
+}
+
+void program_options::locate(const fs::path& beside) {
+  folder = beside;
+  const auto name = command_words(command).front();
+  if (!find_program(name, folder))
+    throw std::invalid_argument{
+        name.find('/') == name.npos
+            ? fmt::format("there is no program \"{}\" in PATH", name)
+            : fmt::format("there is no program {}", (folder / name).string())};
+}
+
+std::vector<fs::path> program_options::files() const {
+  const auto words = command_words(command);
+  std::vector<fs::path> all;
+  if (const auto program = find_program(words.front(), folder))
+    all.push_back(*program);
+  for (std::size_t k = 1; k < words.size(); ++k) {
+    std::error_code ignored;
+    if (fs::is_regular_file(folder / words[k], ignored))
+      all.push_back(folder / words[k]);
+  }
+  return all;
+}
+
+kept_setup program_options::setup(std::string configuration,
+                                  std::size_t most_octets,
+                                  bool is_virtual) const {
+  constexpr std::uint64_t mib = 1 << 20;
+  const auto patience = is_virtual ? patience_in_virtual_time : 1;
+  return {.how = {.command = command_words(command),
+                  .folder = folder,
+                  .environment = {},
+                  .limits = {static_cast<std::uint64_t>(memory_mib) * mib,
+                             static_cast<std::uint64_t>(cpu_s), cgroup},
+                  .ends_with_thread = true},
+          .configuration = std::move(configuration),
+          .most_octets = most_octets,
+          .start_limit = whole_ms(patience * start_limit),
+          .answer_limit = whole_ms(patience * answer_limit),
+          .first_pause = restart_pause,
+          .waits_for_start = is_virtual};
+}
+
+} // namespace sofof::actors
