@@ -28,5 +28,6 @@ void add_decode(CLI::App& app, int& exit_code);
 void add_encode(CLI::App& app, int& exit_code);
 void add_convert(CLI::App& app, int& exit_code);
 void add_keys(CLI::App& app, int& exit_code);
+void add_schema(CLI::App& app, int& exit_code);
 
 } // namespace sofof::apps
