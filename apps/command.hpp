@@ -29,6 +29,7 @@ void add_encode(CLI::App& app, int& exit_code);
 void add_convert(CLI::App& app, int& exit_code);
 void add_keys(CLI::App& app, int& exit_code);
 void add_schema(CLI::App& app, int& exit_code);
+void add_new(CLI::App& app, int& exit_code);
 void add_completion(CLI::App& app, int& exit_code);
 void add_manual(CLI::App& app, int& exit_code);
 

@@ -88,6 +88,7 @@ int obey(int argc, char** argv) {
   sofof::apps::add_decode(app, exit_code);
   sofof::apps::add_encode(app, exit_code);
   sofof::apps::add_keys(app, exit_code);
+  sofof::apps::add_new(app, exit_code);
   sofof::apps::add_schema(app, exit_code);
   sofof::apps::add_completion(app, exit_code);
   sofof::apps::add_manual(app, exit_code);
