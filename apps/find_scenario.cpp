@@ -1,6 +1,7 @@
 // Looks where scenarios usually are.
 #include "apps/find_scenario.hpp"
 
+#include "apps/program.hpp"
 #include "base/input_error.hpp"
 #include "base/options/spelling.hpp"
 #include "base/options/toml_file.hpp"
@@ -38,12 +39,17 @@ std::vector<fs::path> scenarios_in(const fs::path& folder) {
   return all;
 }
 
-/// @returns the folders that a name may be of: its own one, or the usual ones.
+/// @returns the folders that a name may be of: its own one, or the usual ones,
+/// here or where the program was installed.
 std::vector<fs::path> folders_for(const fs::path& name) {
   if (name.has_parent_path())
     return {name.parent_path()};
   std::vector<fs::path> all{"."};
   all.insert(all.end(), std::begin(usual_folders), std::end(usual_folders));
+  std::error_code ignored;
+  if (const auto here = fs::read_symlink(program_file, ignored); !here.empty())
+    for (const auto folder : usual_folders)
+      all.push_back(here.parent_path().parent_path() / "share/sofof" / folder);
   return all;
 }
 

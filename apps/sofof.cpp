@@ -89,6 +89,10 @@ int obey(int argc, char** argv) {
   sofof::apps::add_decode(app, exit_code);
   sofof::apps::add_encode(app, exit_code);
   sofof::apps::add_keys(app, exit_code);
+  sofof::apps::add_new(app, exit_code);
+  sofof::apps::add_schema(app, exit_code);
+  sofof::apps::add_completion(app, exit_code);
+  sofof::apps::add_manual(app, exit_code);
   const auto words = words_of(argc, argv);
   if (!words.empty())
     check_command(app, words.front());

@@ -174,4 +174,9 @@ world::streets_ptr parse_map(std::string_view text,
   return std::make_shared<const world::streets>(std::move(result));
 }
 
+void list_map_options(option_visitor& s) {
+  map_entries all;
+  all.visit_options(s);
+}
+
 } // namespace sofof::scenario

@@ -1,6 +1,7 @@
 // Reads a map: lanes, houses and named routes.
 #pragma once
 
+#include "base/options/option_visitor.hpp"
 #include "world/roads/streets.hpp"
 
 #include <filesystem>
@@ -13,5 +14,8 @@ namespace sofof::scenario {
 /// @throws input_error with file, line and column.
 world::streets_ptr parse_map(std::string_view text,
                              const std::filesystem::path& file);
+
+/// Lists the options of a map's file, those of an empty one.
+void list_map_options(option_visitor& s);
 
 } // namespace sofof::scenario

@@ -59,8 +59,21 @@ bool has_name(std::string_view cell, std::string_view name) {
   }
 }
 
-/// @returns text without its mark-up; of links what is to be read.
-std::string plain(std::string_view cell) {
+std::string row_of(std::string_view section, std::string_view name) {
+  while (!section.empty()) {
+    auto line = cut(section, "\n");
+    if (!line.starts_with("| `"))
+      continue;
+    line.remove_prefix(2);
+    if (has_name(cut(line, " | "), name))
+      return plain_text(cut(line, " |"));
+  }
+  return {};
+}
+
+} // namespace
+
+std::string plain_text(std::string_view cell) {
   std::string text;
   for (std::size_t i = 0; i < cell.size(); ++i) {
     if (cell[i] == ']' && cell.substr(i + 1).starts_with('('))
@@ -72,20 +85,6 @@ std::string plain(std::string_view cell) {
     text.pop_back();
   return text;
 }
-
-std::string row_of(std::string_view section, std::string_view name) {
-  while (!section.empty()) {
-    auto line = cut(section, "\n");
-    if (!line.starts_with("| `"))
-      continue;
-    line.remove_prefix(2);
-    if (has_name(cut(line, " | "), name))
-      return plain(cut(line, " |"));
-  }
-  return {};
-}
-
-} // namespace
 
 std::string documented_in(std::string_view page, std::string_view heading,
                           std::string_view name) {

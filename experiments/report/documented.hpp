@@ -11,6 +11,10 @@ namespace sofof::experiments::report {
 extern const std::string_view results_page;
 extern const std::string_view bench_page;
 
+/// @param cell  Of a table in Markdown.
+/// @returns its text without mark-up; of links what is to be read.
+std::string plain_text(std::string_view cell);
+
 /// @param heading  Of a section of `page` whose table has names in its first
 ///                 column.
 /// @returns what the table says of a name, as plain text; empty if nothing.

@@ -7,15 +7,16 @@
 #include "base/options/toml_options.hpp"
 #include "base/options/toml_text.hpp"
 #include "base/random.hpp"
+#include "experiments/sweep/plan_keys.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cassert>
-#include <initializer_list>
 #include <iterator>
 #include <numeric>
+#include <ranges>
 
 namespace sofof::experiments {
 
@@ -28,8 +29,7 @@ public:
       : file_{file.string()}, root_{parse_toml(text, file_)} {}
 
   sweep_plan read(std::span<const std::string> overrides) {
-    known(root_,
-          {"name", "scenario", "seeds", "most_seeds", "set", "axis", "draw"});
+    known(root_, sweep_keys);
     sweep_plan plan;
     plan.name = text_of(root_, "name");
     if (plan.name.find_first_of("/\\") != plan.name.npos)
@@ -55,17 +55,17 @@ public:
   }
 
 private:
-  using keys = std::initializer_list<std::string_view>;
-
   [[noreturn]] void fail(const toml::node& at, std::string_view why) const {
     throw input_error{fmt::format("{}: {}", place_of(at.source(), file_), why)};
   }
 
-  void known(const toml::table& table, keys allowed) const {
+  void known(const toml::table& table,
+             std::span<const sweep_key> allowed) const {
+    const auto names = allowed | std::views::transform(&sweep_key::name);
     for (const auto& [key, value] : table)
-      if (std::ranges::find(allowed, key.str()) == allowed.end())
+      if (std::ranges::find(names, key.str()) == names.end())
         fail(value, fmt::format("there is no option \"{}\"; these are: {}.",
-                                key.str(), fmt::join(allowed, ", ")));
+                                key.str(), fmt::join(names, ", ")));
   }
 
   std::string text_of(const toml::table& table, std::string_view key) const {
@@ -177,19 +177,19 @@ private:
   }
 
   sweep_axis axis_of(const toml::table& table) const {
-    known(table, {"name", "key", "values", "value"});
     sweep_axis axis;
     if (table.contains("value")) {
-      known(table, {"name", "value"});
+      known(table, wide_axis_keys);
       axis.name = text_of(table, "name");
       for (const auto* value : tables_of(*table.get("value"), "axis.value")) {
-        known(*value, {"name", "set"});
+        known(*value, wide_value_keys);
         const auto* set = value->get("set");
         if (!set)
           fail(*value, "set is missing: what this value changes.");
         axis.values.push_back({text_of(*value, "name"), assignments(*set)});
       }
     } else {
+      known(table, axis_keys);
       const auto key = text_of(table, "key");
       axis.name = table.contains("name") ? text_of(table, "name") : key;
       const auto* node = table.get("values");
@@ -218,7 +218,7 @@ private:
     drawn_option draw;
     draw.key = text_of(table, "key");
     if (const auto* values = table.get("values")) {
-      known(table, {"key", "values"});
+      known(table, drawn_value_keys);
       const auto* list = values->as_array();
       if (!list || list->empty())
         fail(*values, "values must be a list of at least one value, [1, 2].");
@@ -226,7 +226,7 @@ private:
         draw.choices.push_back(assignment(draw.key, value));
       return draw;
     }
-    known(table, {"key", "from", "to"});
+    known(table, drawn_number_keys);
     draw.from = number_of(table, "from");
     draw.to = number_of(table, "to");
     if (!(draw.from < draw.to))

@@ -21,11 +21,8 @@ constexpr double bits_per_octet = 8;
 // Two numbers stood for what run_time_mean and input_octets say alone.
 void refuse_former(option_visitor& s, std::string_view key,
                    const std::string& instead) {
-  double former = 0;
-  if (!s.has(key, false))
-    return;
-  s.field(key, former);
-  s.refuse(key, instead);
+  if (s.has(key, false))
+    s.refuse(key, instead);
 }
 
 constexpr std::string_view alone = "none";

@@ -1,0 +1,91 @@
+// sofof new: a scenario to begin with.
+#include "apps/command.hpp"
+#include "apps/new_scenario.hpp"
+#include "base/files/output_file.hpp"
+#include "base/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <fcntl.h>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <unistd.h>
+
+namespace sofof::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// @returns the file for a name, "mine" or "mine.toml".
+fs::path file_for(const std::string& name) {
+  fs::path file{name};
+  if (file.extension() != ".toml")
+    file += ".toml";
+  const auto stem = file.stem().string();
+  if (stem.empty() || stem == ".toml" || name.ends_with('/')
+      || stem.find_first_of("\"\\\n\r\t") != stem.npos)
+    throw input_error{fmt::format(
+        "\"{}\" is no name for a scenario; \"mine\" is one, its file is "
+        "mine.toml.",
+        name)};
+  return file;
+}
+
+std::string text_for(std::string_view name) {
+  constexpr std::string_view blank = "NAME";
+  std::string text{new_scenario_text};
+  for (auto at = text.find(blank); at != text.npos;
+       at = text.find(blank, at + name.size()))
+    text.replace(at, blank.size(), name);
+  return text;
+}
+
+/// Writes a file that was not there before.
+void write_new(const fs::path& file, std::string_view text) {
+  const auto out =
+      open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (out < 0 && errno == EEXIST)
+    throw input_error{
+        fmt::format("{} is there already; choose another name, or remove it.",
+                    file.string())};
+  if (out < 0)
+    refuse_to_write(fmt::format("{} cannot be written: {}.", file.string(),
+                                std::generic_category().message(errno)),
+                    errno);
+  const auto written = write(out, text.data(), text.size());
+  const auto error = errno;
+  if (close(out) == 0 && written == static_cast<ssize_t>(text.size()))
+    return;
+  std::error_code ignored;
+  fs::remove(file, ignored);
+  refuse_to_write(fmt::format("{} cannot be written: {}.", file.string(),
+                              std::generic_category().message(error)),
+                  error);
+}
+
+} // namespace
+
+void add_new(CLI::App& app, int&) {
+  auto* command = app.add_subcommand(
+      "new", "Write a small scenario with comments, to begin with");
+  auto name = std::make_shared<std::string>();
+  command->add_option("NAME", *name, "Of the scenario; its file is NAME.toml")
+      ->required()
+      ->type_name(" ");
+  command->footer("Example:\n  sofof new mine\n  sofof run mine.toml");
+  command->callback([name] {
+    const auto file = file_for(*name);
+    write_new(file, text_for(file.stem().string()));
+    std::cout << fmt::format("{0} is written; sofof run {0} drives it\n",
+                             file.string());
+  });
+}
+
+} // namespace sofof::apps
