@@ -45,7 +45,7 @@ void tell(const maps::imported_map& map, const world::streets& made,
                            out, map.lanes.size(), all_m / 1000,
                            made.map.conflicts().size(), map.routes.size());
   for (const auto& [what, count] : map.left_out)
-    std::cout << fmt::format("  left out: {} {}\n", count, what);
+    std::cout << fmt::format("  left out: {} ({})\n", what, count);
   constexpr std::size_t most_warnings = 20;
   for (std::size_t i = 0; i < map.warnings.size(); ++i)
     if (i < most_warnings)

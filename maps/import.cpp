@@ -19,6 +19,9 @@ namespace sofof::maps {
 
 namespace {
 
+/// Longer ones are mistakes.
+constexpr auto longest_lane_m = 20e3;
+
 /// @returns whether it has what only Lanelet2 writes.
 bool has_lanelets(pugi::xml_node osm) {
   for (const auto relation : osm.children("relation"))
@@ -109,6 +112,13 @@ imported_map import(const named_text& map, const std::string& name,
   tidy(source);
   if (source.lanes.empty())
     file.refuse(file.root(), "no lane is left that cars may drive.");
+  for (const auto& l : source.lanes)
+    if (length_m(l.centre) > longest_lane_m)
+      file.refuse(file.root(),
+                  fmt::format("lane \"{}\" is {:.0f} km long; {:.0f} km are "
+                              "the most.",
+                              l.name, length_m(l.centre) / 1000,
+                              longest_lane_m / 1000));
   imported_map to{.name = name, .origin = source.origin};
   try {
     const auto lanes = draw_lanes(source);

@@ -117,10 +117,30 @@ std::vector<point> fit(std::span<const point> samples, const curve_ends& ends,
   return curve;
 }
 
+/// @returns how far a curve is from its source at most; each of its points is
+/// measured to what of the source lies beside it.
 double farthest_m(std::span<const point> curve, std::span<const point> source) {
-  auto farthest = 0.0;
-  for (const auto p : curve)
-    farthest = std::max(farthest, distance_to_m(p, source));
+  constexpr auto beside_m = 15.0;
+  const auto per_point_m =
+      length_m(source) / static_cast<double>(curve.size() - 1);
+  auto farthest = 0.0, first_ends_m = distance_m(source[0], source[1]);
+  std::size_t first = 0; // segment that may be near
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    const auto s_m = static_cast<double>(i) * per_point_m;
+    while (first + 2 < source.size() && first_ends_m < s_m - beside_m) {
+      ++first;
+      first_ends_m += distance_m(source[first], source[first + 1]);
+    }
+    auto least = std::numeric_limits<double>::infinity();
+    auto begins_m = first_ends_m - distance_m(source[first], source[first + 1]);
+    for (auto k = first; k + 1 < source.size() && begins_m < s_m + beside_m;
+         ++k) {
+      least = std::min(
+          least, distance_to_segment_m(curve[i], source[k], source[k + 1]));
+      begins_m += distance_m(source[k], source[k + 1]);
+    }
+    farthest = std::max(farthest, least);
+  }
   return farthest;
 }
 
