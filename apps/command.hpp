@@ -28,9 +28,11 @@ void add_solve(CLI::App& app, int& exit_code);
 void add_decode(CLI::App& app, int& exit_code);
 void add_encode(CLI::App& app, int& exit_code);
 void add_convert(CLI::App& app, int& exit_code);
+void add_import(CLI::App& app, int& exit_code);
+void add_map(CLI::App& app, int& exit_code);
+void add_new(CLI::App& app, int& exit_code);
 void add_keys(CLI::App& app, int& exit_code);
 void add_schema(CLI::App& app, int& exit_code);
-void add_new(CLI::App& app, int& exit_code);
 void add_completion(CLI::App& app, int& exit_code);
 void add_manual(CLI::App& app, int& exit_code);
 

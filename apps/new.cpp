@@ -1,6 +1,7 @@
 // sofof new: a scenario to begin with.
 #include "apps/command.hpp"
 #include "apps/new_scenario.hpp"
+#include "apps/propose.hpp"
 #include "base/files/output_file.hpp"
 #include "base/input_error.hpp"
 
@@ -73,16 +74,29 @@ void write_new(const fs::path& file, std::string_view text) {
 } // namespace
 
 void add_new(CLI::App& app, int&) {
+  struct arguments {
+    std::string name, map;
+  };
   auto* command = app.add_subcommand(
       "new", "Write a small scenario with comments, to begin with");
-  auto name = std::make_shared<std::string>();
-  command->add_option("NAME", *name, "Of the scenario; its file is NAME.toml")
+  auto args = std::make_shared<arguments>();
+  command
+      ->add_option("NAME", args->name, "Of the scenario; its file is NAME.toml")
       ->required()
       ->type_name(" ");
-  command->footer("Example:\n  sofof new mine\n  sofof run mine.toml");
-  command->callback([name] {
-    const auto file = file_for(*name);
-    write_new(file, text_for(file.stem().string()));
+  command
+      ->add_option("--map", args->map,
+                   "Map to drive on: 20 cars on its routes, providers at its "
+                   "busiest junctions")
+      ->type_name("MAP.toml");
+  command->footer("Examples:\n  sofof new mine\n  sofof run mine.toml\n"
+                  "  sofof new city --map city_map.toml");
+  command->callback([args] {
+    const auto file = file_for(args->name);
+    const auto name = file.stem().string();
+    write_new(file, args->map.empty()
+                        ? text_for(name)
+                        : proposed_text(args->map, name, file.string()));
     std::cout << fmt::format("{0} is written; sofof run {0} drives it\n",
                              file.string());
   });

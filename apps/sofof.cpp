@@ -82,6 +82,9 @@ int obey(int argc, char** argv) {
   sofof::apps::add_report(app, exit_code);
   sofof::apps::add_explain(app, exit_code);
   sofof::apps::add_convert(app, exit_code);
+  sofof::apps::add_import(app, exit_code);
+  sofof::apps::add_new(app, exit_code);
+  sofof::apps::add_map(app, exit_code);
   sofof::apps::add_check(app, exit_code);
   sofof::apps::add_check_trace(app, exit_code);
   sofof::apps::add_policies(app, exit_code);
@@ -89,7 +92,6 @@ int obey(int argc, char** argv) {
   sofof::apps::add_decode(app, exit_code);
   sofof::apps::add_encode(app, exit_code);
   sofof::apps::add_keys(app, exit_code);
-  sofof::apps::add_new(app, exit_code);
   sofof::apps::add_schema(app, exit_code);
   sofof::apps::add_completion(app, exit_code);
   sofof::apps::add_manual(app, exit_code);

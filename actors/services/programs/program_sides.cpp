@@ -35,10 +35,9 @@ make_program_function(const program_side& what, std::string_view side,
       static_cast<std::size_t>(what.octets.most_result_octets),
       whose.is_virtual);
   // For people who look at processes.
-  setup.how.environment = {
-      fmt::format("SOFOF_SERVICE={}", what.service.view()),
-      fmt::format("SOFOF_SIDE={}", side),
-      fmt::format("SOFOF_STATION={}", station)};
+  setup.how.environment = {fmt::format("SOFOF_SERVICE={}", what.service.view()),
+                           fmt::format("SOFOF_SIDE={}", side),
+                           fmt::format("SOFOF_STATION={}", station)};
   return std::make_shared<program_function>(std::move(setup), std::move(whose));
 }
 
