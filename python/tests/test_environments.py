@@ -322,4 +322,4 @@ class Simulation(here.InFolder):
 
 if __name__ == "__main__":
     warnings.simplefilter("error", ResourceWarning)
-    unittest.main()
+    here.main()

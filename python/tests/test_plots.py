@@ -3,7 +3,6 @@
 Writes them anew with the argument --update."""
 import pathlib
 import sys
-import unittest
 
 import here
 import made_up
@@ -91,4 +90,4 @@ if __name__ == "__main__":
             with tempfile.TemporaryDirectory() as at:
                 save(each, pathlib.Path(at), PICTURES / f"{each}.png")
     else:
-        unittest.main()
+        here.main()

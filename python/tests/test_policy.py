@@ -174,4 +174,4 @@ class Simulation(here.InFolder):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    here.main()

@@ -252,4 +252,4 @@ class Program(here.InFolder):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    here.main()

@@ -15,7 +15,7 @@ asked() {
 
 environments() {
   local lasts=600 name
-  [[ ! $short ]] || lasts=60
+  [[ ! $short ]] || lasts=200
   for name in mixed_fleet corridor_3sp; do
     say "environments of $name, $lasts s"
     asked speed "$root/config/bench/$name.toml" "$lasts"
@@ -35,7 +35,7 @@ environments() {
     all_of "$(told other)"
   asked left "$root/config/bench/mixed_fleet.toml"
   zero "after close, exception, kill: processes" "$(told processes)"
-  zero "likewise: files, sockets" "$(told files)"
+  zero "likewise: descriptors, sockets with a name" "$(told files)"
   local checkers
   checkers=$(told checkers)
   counted "checkers of Gymnasium and PettingZoo" "${checkers:-unknown}"
