@@ -11,10 +11,23 @@
 
 namespace sofof::experiments {
 
+namespace {
+
+/// Behind a number that counts from 0.
+constexpr std::string_view from_zero = "+1";
+
+} // namespace
+
 std::optional<shard> parse_shard(std::string_view text) {
   shard which{0, 0};
   const auto* end = text.data() + text.size();
-  const auto* slash = std::from_chars(text.data(), end, which.number).ptr;
+  const auto first = std::from_chars(text.data(), end, which.number);
+  const auto* slash = first.ptr;
+  if (first.ec == std::errc{} && which.number < most_shards
+      && std::string_view{slash, end}.starts_with(from_zero)) {
+    ++which.number;
+    slash += from_zero.size();
+  }
   if (slash == end || *slash != '/')
     return std::nullopt;
   const auto rest = std::from_chars(slash + 1, end, which.of);

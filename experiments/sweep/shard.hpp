@@ -24,7 +24,8 @@ inline constexpr std::size_t most_shards = most_sweep_points;
 /// measured on one machine.
 inline constexpr std::size_t measuring_shard = 1;
 
-/// @param text  "I/N" with 1 <= I <= N <= `most_shards`.
+/// @param text  "I/N" with 1 <= I <= N <= `most_shards`; or "K+1/N", where I is
+///              K + 1: who starts shards may count them from 0.
 /// @returns nullopt for any other text.
 std::optional<shard> parse_shard(std::string_view text);
 
