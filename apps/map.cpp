@@ -13,6 +13,7 @@
 #include <iostream>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace sofof::apps {
 
@@ -41,9 +42,13 @@ void draw_map(const std::string& name, const std::string& out) {
       more.providers.push_back({p.name, p.position_m, p.area().corners()});
     }
   }
+  auto ways = world->routes; // and lanes that no route leads over
+  for (const auto& l : world->map.lanes())
+    ways.push_back(
+        world->map.make_route(l.name, std::vector<std::string>{l.name}, false));
   const world::vehicle_params car;
   more.bends = world::sharp_bends(
-      world->map, world->routes, car.wheelbase_m / std::tan(car.max_steer_rad));
+      world->map, ways, car.wheelbase_m / std::tan(car.max_steer_rad));
   write_file(out, maps::draw(*world, more), "another file with -o");
   std::cout << out << '\n';
 }

@@ -18,9 +18,9 @@ namespace {
 constexpr auto usual_limit_mps = 50 / 3.6;
 
 /// Lanelets that meet to within this follow each other, m.
-constexpr auto joint_m = 2.0;
+constexpr auto successor_joint_m = 2.0;
 
-constexpr auto narrowest_m = 1.0; // half of it
+constexpr auto narrowest_lane_m = 1.0; // half of it
 
 /// Signs of speed limits, of Germany, the USA and others.
 constexpr std::array<std::string_view, 4> limit_signs{"274", "274.1", "R2-1",
@@ -104,7 +104,8 @@ private:
       }
     const auto middle =
         middle_of(bound(lanelet, "leftBound"), bound(lanelet, "rightBound"));
-    if (middle.half_width_m < narrowest_m || length_m(middle.centre) < 0.1) {
+    if (middle.half_width_m < narrowest_lane_m
+        || length_m(middle.centre) < 0.1) {
       ++map_.left_out["lanes narrower than 2 m"];
       return;
     }
@@ -144,7 +145,7 @@ private:
       auto& next = map_.lanes[from].next;
       if (distance_m(map_.lanes[from].centre.back(),
                      map_.lanes[to->second].centre.front())
-          > joint_m)
+          > successor_joint_m)
         ++map_.left_out["connections between lanes that do not meet"];
       else if (from != to->second
                && std::ranges::find(next, name) == next.end())

@@ -27,6 +27,9 @@ constexpr std::string_view of_buses = "bus_lane";
 
 constexpr auto narrowest_m = 1.0; // half of it
 
+/// Half the width of a lanelet in which two cars pass each other.
+constexpr auto wide_m = 2.3;
+
 std::string_view tag(pugi::xml_node of, std::string_view key) {
   for (const auto t : of.children("tag"))
     if (key == t.attribute("k").value())
@@ -169,12 +172,13 @@ private:
                   fmt::format("there are two lanelets \"{}\".", name));
     auto left = line(relation, "left"), right = line(relation, "right");
     orient(left, right);
-    add(relation, {name, left, right});
-    if (tag(relation, "one_way") != "no")
+    const auto both_ways = tag(relation, "one_way") == "no";
+    add(relation, {name, left, right}, both_ways);
+    if (!both_ways)
       return;
     std::ranges::reverse(left);
     std::ranges::reverse(right);
-    add(relation, {name + " back", right, left});
+    add(relation, {name + " back", right, left}, both_ways);
   }
 
   /// Bounds are drawn in either direction: here they run beside each other,
@@ -200,8 +204,11 @@ private:
     }
   }
 
-  void add(pugi::xml_node relation, lanelet l) {
-    const auto middle = middle_of(points(l.left), points(l.right));
+  /// Who shares a wide lanelet with oncoming traffic keeps to the right half.
+  void add(pugi::xml_node relation, lanelet l, bool both_ways) {
+    auto middle = middle_of(points(l.left), points(l.right));
+    if (both_ways && middle.half_width_m >= wide_m)
+      middle = middle_of(middle.centre, points(l.right));
     if (middle.half_width_m < narrowest_m || length_m(middle.centre) < 0.1) {
       ++map_.left_out["lanes narrower than 2 m"];
       return;

@@ -95,7 +95,8 @@ std::string propose_scenario(const world::streets& world, std::string_view name,
                    "\n[[provider]]\nname = \"edge {}\"\nposition_m = [{:.1f}, "
                    "{:.1f}]\narea_radius_m = {:.1f}\n",
                    i + 1, junctions[i].at.x_m, junctions[i].at.y_m, area_m);
-  text += "\n[[service]]\nname = \"trajectory_planning\"\n";
+  text += "\n[compute]\nworkers = 2    # of each provider\n"
+          "\n[[service]]\nname = \"trajectory_planning\"\n";
   return text;
 }
 

@@ -1,11 +1,11 @@
 // Draws the lanes of a source so that a car can follow them.
 #include "maps/smooth_lanes.hpp"
 
-#include "world/roads/path.hpp"
 #include "world/vehicle/vehicle.hpp"
 
 #include "maps/p_spline.hpp"
 #include "maps/polyline.hpp"
+#include "maps/swept_body.hpp"
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -31,11 +31,9 @@ constexpr auto least_left_m = 12.0;
 /// How far a lane may be drawn from its source, m.
 constexpr auto off_outside_m = 0.15, off_inside_m = 0.45;
 
-/// A car in a tight turn may come so far over the rim of the source's lane, m.
+/// Where a car could not follow, its rear axle may be as far off as its body
+/// stays within the source's lane, and so much more, m.
 constexpr auto over_rim_m = 0.15;
-
-/// Beside a car's body in a bend, m.
-constexpr auto beside_m = 0.4;
 
 using lane_list = std::vector<std::size_t>;
 
@@ -103,23 +101,6 @@ private:
   std::vector<std::size_t> parent_;
   std::vector<joint> of_; // sums, at the roots
 };
-
-/// @returns how wide a lane has to be, from its middle, for a car whose rear
-/// axle follows its centre line.
-double needed_half_width_m(const std::vector<point>& centre) {
-  const world::vehicle_params car;
-  const world::path line{centre};
-  auto widest_m = 0.0;
-  for (auto s_m = 0.0; s_m < line.length_m() - car.wheelbase_m; s_m += 0.5) {
-    const auto rear = line.at(s_m);
-    const point front{
-        rear.at.x_m + car.wheelbase_m * std::cos(rear.heading_rad),
-        rear.at.y_m + car.wheelbase_m * std::sin(rear.heading_rad)};
-    widest_m = std::max(
-        widest_m, std::abs(line.project(front, s_m + car.wheelbase_m).d_m));
-  }
-  return widest_m + car.width_m / 2 + beside_m;
-}
 
 class draughtsman {
 public:
@@ -216,13 +197,7 @@ private:
                           all.at(2 * i + 1), all.direction(2 * i + 1)};
     const auto bends = total_turn_rad(from.centre) > turn_rad;
     const auto near_m = from.inside && bends ? off_inside_m : off_outside_m;
-    auto curve = fit_p_spline(from.centre, ends, {.off_m = near_m});
-    const auto rim_m =
-        from.half_width_m - world::vehicle_params{}.width_m / 2 + over_rim_m;
-    if (curve.sharpest_1pm > sharpest_drivable_1pm && rim_m > near_m)
-      if (auto other = fit_p_spline(from.centre, ends, {.off_m = rim_m});
-          other.sharpest_1pm < curve.sharpest_1pm)
-        curve = std::move(other);
+    const auto curve = draw_line(from, ends, near_m);
     drawn_lane to{.is = {.name = from.name,
                          .centre = thinned(curve.points),
                          .half_width_m = from.half_width_m,
@@ -234,6 +209,20 @@ private:
     to.is.half_width_m =
         std::max(to.is.half_width_m, needed_half_width_m(to.is.centre));
     return to;
+  }
+
+  /// As smooth as near to its source is possible; a lane that a car could not
+  /// follow is drawn once more, farther from it.
+  static fitted_curve draw_line(const source_lane& from, const curve_ends& ends,
+                                double near_m) {
+    auto best = fit_p_spline(from.centre, ends, {.off_m = near_m});
+    const auto rim_m =
+        from.half_width_m - world::vehicle_params{}.width_m / 2 + over_rim_m;
+    if (best.sharpest_1pm > sharpest_drivable_1pm && rim_m > near_m)
+      if (auto other = fit_p_spline(from.centre, ends, {.off_m = rim_m});
+          other.sharpest_1pm < best.sharpest_1pm)
+        best = std::move(other);
+    return best;
   }
 
   std::vector<source_lane> lanes_;

@@ -20,7 +20,7 @@ namespace {
 constexpr auto usual_width_m = 3.2; // of SUMO's lanes
 
 /// Lanes that touch to within this are joined where they meet, m.
-constexpr auto joint_m = 2.0;
+constexpr auto netconvert_joint_m = 2.0;
 
 /// @returns whether a list of vehicle classes names passenger cars.
 bool names_cars(std::string_view classes) {
@@ -172,7 +172,8 @@ private:
       to = lane_of(c, std::string{net_.text(c, "via")});
     if (!to)
       return;
-    if (distance_m(from->centre.back(), to->centre.front()) > joint_m)
+    if (distance_m(from->centre.back(), to->centre.front())
+        > netconvert_joint_m)
       ++map_.left_out["connections between lanes that do not meet"];
     else if (std::ranges::find(from->next, to->name) == from->next.end())
       from->next.push_back(to->name);
