@@ -30,7 +30,7 @@ constexpr auto infinity = std::numeric_limits<double>::infinity();
 constexpr auto not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// What doubles may be off by.
-constexpr double same = 1e-7;
+constexpr double rounding = 1e-7;
 
 its_pdu words_of(const driving_scene& scene, const scene_place& own) {
   return make_scene_words(scene, own, *test::in_ulm());
@@ -53,7 +53,7 @@ decoded_scene passed_on(const driving_scene& scene, const scene_place& own) {
 
 /// Below by less than a unit, or the same.
 bool is_below(double read, double said, double unit) {
-  return read <= said + same && read > said - unit - same;
+  return read <= said + rounding && read > said - unit - rounding;
 }
 bool is_above(double read, double said, double unit) {
   return is_below(-read, -said, unit);
@@ -80,7 +80,7 @@ void check_crossing(const crossing_user& read, const crossing_user& said,
   if (leave_s - enter_s < 163.8 && enter_s < 81.9)
     CHECK(is_above(read.leave_s, leave_s, hundredth_s));
   else
-    CHECK(read.leave_s >= leave_s - same);
+    CHECK(read.leave_s >= leave_s - rounding);
   CHECK(read.goes_first == said.goes_first);
   if (said.brakes_mps2 <= 6.2)
     CHECK(is_above(read.brakes_mps2, said.brakes_mps2, 0.1));
@@ -104,8 +104,8 @@ void check_lead(const driving_scene& read, const driving_scene& said,
     const auto now = said.at + later;
     const auto x = moved_forward(a, read.at, now);
     const auto y = moved_forward(b, said.at, now);
-    CHECK(x.rear_s_m <= y.rear_s_m + same);
-    CHECK(x.speed_mps <= y.speed_mps + same);
+    CHECK(x.rear_s_m <= y.rear_s_m + rounding);
+    CHECK(x.speed_mps <= y.speed_mps + rounding);
   }
   for (std::size_t i = 0; i < said.lead_told.size(); ++i) {
     CHECK(is_below(read.lead_told[i].s_m, said.lead_told[i].s_m, cm));
@@ -118,13 +118,13 @@ void check_body(const lane_obstacle& read, const lane_obstacle& said,
                 double late_s) {
   CHECK(is_below(read.low_m, said.low_m, mm));
   CHECK(is_above(read.high_m, said.high_m, mm));
-  CHECK(std::abs(read.speed_mps - said.speed_mps) <= mm / 2 + same);
+  CHECK(std::abs(read.speed_mps - said.speed_mps) <= mm / 2 + rounding);
   // It is where the other one is as long as anybody plans.
   for (auto t = 0.0; t <= 9.9; t += 1.1) {
     const auto moved = said.speed_mps * t;
     const auto read_moved = read.speed_mps * (t + late_s);
-    CHECK(read.from_m + read_moved <= said.from_m + moved + same);
-    CHECK(read.to_m + read_moved >= said.to_m + moved - same);
+    CHECK(read.from_m + read_moved <= said.from_m + moved + rounding);
+    CHECK(read.to_m + read_moved >= said.to_m + moved - rounding);
   }
   auto here = said;
   here.from_m -= late_s * said.speed_mps;
@@ -298,7 +298,7 @@ TEST_CASE("numbers out of range are not told, or more cautiously") {
           const auto &a = got.scene.crossings[i], &b = scene.crossings[i];
           CHECK(a.enter_s <= b.enter_s + 0.001);
           CHECK(a.leave_s >= b.leave_s);
-          CHECK(a.brakes_mps2 >= b.brakes_mps2 - same);
+          CHECK(a.brakes_mps2 >= b.brakes_mps2 - rounding);
         }
       }
       x = before;
