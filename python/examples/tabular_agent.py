@@ -138,7 +138,7 @@ def train(file: str, scenario: str, episodes: int) -> None:
 class Tabular(sofof.Policy):
     """The table as a policy."""
 
-    version = "1"  # with the table's name on the command line, its content counts
+    version = "1"  # the table is on the command line: its content counts
 
     def __init__(self, file: str):
         self.table = numpy.loadtxt(file).reshape(SHAPE)
