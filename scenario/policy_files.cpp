@@ -112,7 +112,8 @@ private:
 
   [[noreturn]] void refuse(std::string_view option,
                            const std::string& why) const {
-    source_.refuse(fmt::format("policies.{}.{}", side_, option), why);
+    source_.refuse(fmt::format("policies.{}.{}", side_, option),
+                   fmt::format("{} {}", option, why));
   }
 
   scenario_definition& all_;

@@ -65,9 +65,9 @@ void anchor(toml::table& policies, std::string_view side,
   const auto name = (*table)["name"].value_or(std::string{});
   const auto place = [&](std::string_view key) {
     const auto given = (*table)[key].value_or(std::string{});
-    table->insert_or_assign(key, std::filesystem::absolute("." / folder / given)
-                                     .lexically_normal()
-                                     .string());
+    const auto there = std::filesystem::absolute("." / folder / given) / "";
+    table->insert_or_assign(key,
+                            there.lexically_normal().parent_path().string());
   };
   if (const auto lodm = policies::make_lodm(name);
       side == "lodm" && lodm && lodm->learned_from()

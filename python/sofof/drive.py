@@ -174,7 +174,8 @@ class Drive:
     def _message(self) -> dict[str, Any] | None:
         try:
             line = self._lines.readline()
-            message = json.loads(line.decode()) if line.endswith(b"\n") else None
+            whole = line.endswith(b"\n")
+            message = json.loads(line.decode()) if whole else None
         except (OSError, ValueError):
             return None
         return message if isinstance(message, dict) else None

@@ -74,7 +74,8 @@ class OffloadingEnv(_Env):
         self._ask: Ask | None = None
 
     def reset(self, *, seed: int | None = None,
-              options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
+              options: dict[str, Any] | None = None) -> tuple[
+                  Any, dict[str, Any]]:
         """Begins an episode.
 
         Args:
@@ -96,7 +97,8 @@ class OffloadingEnv(_Env):
         self._episode.costs.take()  # what came before the first step
         return self._seen(), self._info({})
 
-    def step(self, action: int) -> tuple[Any, float, bool, bool, dict[str, Any]]:
+    def step(self, action: int) -> tuple[Any, float, bool, bool,
+                                         dict[str, Any]]:
         """Decides, and drives on to the next decision.
 
         Returns:

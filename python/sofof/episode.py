@@ -44,7 +44,8 @@ class Setting:
                          else duration)
         self.service = service
         self.epoch_s = epoch_s
-        self.policy: dict[str, object] = {"epoch_s": float(epoch_s), **(policy or {})}
+        self.policy: dict[str, object] = {"epoch_s": float(epoch_s),
+                                          **(policy or {})}
         config = effective(self.scenario, self.set, self.duration)
         self.stations = [fleet["first_station"] + k
                          for fleet in config["fleet"]

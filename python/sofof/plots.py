@@ -102,7 +102,8 @@ def _t_off_of_sweep(sweep: Sweep, axis: str, ax: "Axes") -> None:
 
 
 def _words(name: Any) -> str | None:
-    return ", ".join(map(str, name if isinstance(name, tuple) else (name,))) or None
+    words = name if isinstance(name, tuple) else (name,)
+    return ", ".join(map(str, words)) or None
 
 
 def _half_interval(values: Any) -> float:
@@ -168,15 +169,18 @@ def _tail(one: Results, service: str) -> tuple[Any, Any]:
     if len(times_ms) == 0:
         raise SofofError(f"{one.folder} has no results of {service!r}.")
     # The last value has nobody beyond: it is where the curve ends.
-    return times_ms, 1 - numpy.cumsum(counts) / counts.sum() + 0.5 / counts.sum()
+    longer = counts.sum() - numpy.cumsum(counts)
+    return times_ms, (longer + 0.5) / counts.sum()
 
 
 def _limit_ms(one: Results, service: str) -> float | None:
     import re
 
-    unit_ms = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3, "min": 6e4, "h": 3.6e6}
+    unit_ms = {"ns": 1e-6, "us": 1e-3, "ms": 1.0, "s": 1e3, "min": 6e4,
+               "h": 3.6e6}
     for x in one.config.get("service", []):
-        found = re.fullmatch(r"([.0-9]+)([a-z]+)", str(x.get("max_latency", "")))
+        found = re.fullmatch(r"([.0-9]+)([a-z]+)",
+                             str(x.get("max_latency", "")))
         if x.get("name") == service and found:
             return float(found[1]) * unit_ms[found[2]]
     return None

@@ -114,7 +114,8 @@ class Results:
         return frame
 
 
-def _of_csv(text: bytes, columns: tuple[tables.Column, ...]) -> "pandas.DataFrame":
+def _of_csv(text: bytes,
+            columns: tuple[tables.Column, ...]) -> "pandas.DataFrame":
     import pandas
 
     if not text:

@@ -125,7 +125,8 @@ def sweep(scenario: Path, axes: Mapping[str, Sequence[object]] | None = None,
         return Sweep(folder, name)
     with tempfile.TemporaryDirectory(prefix="sofof_") as at:
         file = pathlib.Path(at) / f"{name}.toml"
-        file.write_text(_sweep_file(name, scenario, axes or {}, seeds, set or {}))
+        file.write_text(_sweep_file(name, scenario, axes or {}, seeds,
+                                    set or {}))
         _call(["sweep", str(file), *words], folder / f"{name}.csv")
     return Sweep(folder, name)
 
@@ -201,7 +202,8 @@ def bench(scenarios: Iterable[Path] | Path, policies: Iterable[str] = ("all",),
     return Leaderboard(folder)
 
 
-def process(script: Path, *arguments: str, **options: object) -> dict[str, object]:
+def process(script: Path, *arguments: str,
+            **options: object) -> dict[str, object]:
     """A policy that is a program, as `set` and `entrants` take it.
 
     Args:

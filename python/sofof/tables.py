@@ -42,7 +42,8 @@ def unit_of(name: str) -> str | None:
     return UNIT_OF_ENDING[max(fits, key=len)] if fits else None
 
 
-def _columns(text: str, units: dict[str, str] | None = None) -> tuple[Column, ...]:
+def _columns(text: str,
+             units: dict[str, str] | None = None) -> tuple[Column, ...]:
     """Of "name:letter" words; a word alone is a quantity."""
     columns = []
     for word in text.split():

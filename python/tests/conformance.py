@@ -70,7 +70,8 @@ def check_aec(make, case) -> None:
     case.assertFalse(any(env.truncations.values()))
     for agent in env.agents:
         case.assertRegex(agent, "^[a-z]+_[0-9]+$")
-        case.assertIs(env.observation_space(agent), env.observation_space(agent))
+        case.assertIs(env.observation_space(agent),
+                      env.observation_space(agent))
         case.assertIs(env.action_space(agent), env.action_space(agent))
         case.assertEqual(env.action_space(agent).n,
                          env.action_space(env.agents[0]).n)

@@ -218,7 +218,8 @@ class Episodes(InToyWorld):
                   "import sofof\n"
                   "env = sofof.OffloadingEnv('toy')\n"
                   "seen, info = env.reset(seed=7)\n"
-                  "assert type(seen) is list and seen in env.observation_space\n"
+                  "assert type(seen) is list\n"
+                  "assert seen in env.observation_space\n"
                   "assert 'numpy' not in sys.modules\n"
                   "print([env.step(k % 3)[1] for k in range(15)])\n")
         # Without the folders of the site there is no numpy.

@@ -26,13 +26,15 @@ def drawn(name: str, folder: pathlib.Path, figure) -> None:
             {"quick": sofof.load(made_up.run(folder / "q")),
              "slow": sofof.load(made_up.run(folder / "s", 15.0))}, ax=ax)
     elif name == "map_with_tracks":
-        sofof.plots.map_with_tracks(sofof.load(made_up.run(folder / "m")), ax=ax)
+        sofof.plots.map_with_tracks(sofof.load(made_up.run(folder / "m")),
+                                    ax=ax)
     else:
         sofof.plots.leaderboard(sofof.Leaderboard(made_up.bench(folder / "b")),
                                 ax=ax)
 
 
-NAMES = ("t_off", "t_off_of_sweep", "latency_tail", "map_with_tracks", "leaderboard")
+NAMES = ("t_off", "t_off_of_sweep", "latency_tail", "map_with_tracks",
+         "leaderboard")
 
 
 def save(name: str, folder: pathlib.Path, to: pathlib.Path) -> None:

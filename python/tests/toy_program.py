@@ -68,7 +68,8 @@ class World:
         near = [provider(k, users[k - 1]) for k in (1, 2)
                 if k == 1 or int(t_s) % 3]
         self.send(type="ask", n=self.n, policy="lodm", t_s=t_s, station=station,
-                  service=service, current=self.at[station], since_s=0, here=None,
+                  service=service, current=self.at[station], since_s=0,
+                  here=None,
                   speed_mps=8.0, providers=near, path=[[t_s, 0.0]],
                   needs={"period_s": 0.1, "max_latency_s": 0.05,
                          "max_interarrival_s": 0.15, "worst_response_s": None},

@@ -72,9 +72,9 @@ struct own_folder {
 
 TEST_CASE_FIXTURE(own_folder, "a program that cannot be started is refused "
                               "where the scenario names it") {
-  says("lodm = \"process\"", {"policies.lodm.command", "must name a program"});
+  says("lodm = \"process\"", {"14:8: command must name a program"});
   says("codm = { name = \"process\", command = \"\" }",
-       {"policies.codm.command", "must name a program"});
+       {"14:38: command must name a program"});
   says("lodm = { name = \"process\", command = \"./mine.sh\" }",
        {"starts with \"./mine.sh\"", at.path().string()});
   says("lodm = { name = \"process\", command = \"no_such_program x\" }",
@@ -82,7 +82,7 @@ TEST_CASE_FIXTURE(own_folder, "a program that cannot be started is refused "
   says("lodm = { name = \"process\", command = \"/bin/sh 'x\" }",
        {"the quote ' is not closed"});
   says("lodm = { name = \"process\", command = \"/bin/cat\", folder = \"no\" }",
-       {"policies.lodm.folder", "must be a folder"});
+       {"folder must be a folder"});
   says("lodm = { name = \"process\", command = \"/bin/cat\", time_limit = "
        "\"0s\" }",
        {"time_limit"});
@@ -158,8 +158,7 @@ TEST_CASE_FIXTURE(own_folder, "a snapshot is sought from the scenario's file "
   };
   constexpr auto policies =
       "lodm = { name = \"q_learning\", snapshot = \"q.txt\" }";
-  says(policies,
-       {"policies.lodm.snapshot", (at / "q.txt").string(), "cannot be read"});
+  says(policies, {(at / "q.txt").string(), "cannot be read"});
   write_text(at / "q.txt", head("dqn") + learned);
   says(policies, {"q.txt, line 2: it is of the policy \"dqn\"",
                   "sofof train FILES --policy q_learning"});

@@ -30,6 +30,7 @@ routes = ["block *"]
 position_m = [100.0, 50.0]
 area_radius_m = 400.0
 [[provider]]
+name = "other"
 position_m = [0.0, 0.0]
 area_radius_m = 400.0
 [network]

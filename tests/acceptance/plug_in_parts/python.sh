@@ -47,8 +47,8 @@ tests_of() {
   local said
   said=$(SOFOF=$program "$python" -B "$root/python/tests/test_$1.py" 2>&1) \
     && code=0 || code=$?
-  line "$2" "$(grep -o 'Ran [0-9]* tests' <<<"$said"), $(tail -n 1 <<<"$said")" \
-    "OK" [ "$code" = 0 ]
+  line "$2" "$(sed -n 's/^Ran \([0-9]* tests\).*/\1/p' <<<"$said")" "pass" \
+    [ "$code" = 0 ]
 }
 
 tables() {

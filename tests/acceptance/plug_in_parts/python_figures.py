@@ -1,5 +1,5 @@
-"""What tests/acceptance/plug_in measures of python/sofof, for the program of the
-variable SOFOF: prints a name, a tab and a figure a line.
+"""What tests/acceptance/plug_in measures of python/sofof, for the program of
+the variable SOFOF: prints a name, a tab and a figure a line.
 
   python_figures.py speed SCENARIO SECONDS
   python_figures.py together SCENARIO SECONDS
