@@ -13,6 +13,7 @@
 #include <span>
 #include <sys/socket.h>
 #include <thread>
+#include <utility>
 
 namespace sofof::programs {
 
@@ -31,8 +32,11 @@ constexpr auto between_looks = 1ms;
 std::string quoted_line(std::string_view line) {
   constexpr std::size_t longest = 200;
   line = line.substr(0, line.find('\n'));
-  return printable(std::string{line.substr(0, longest)})
-         + (line.size() > longest ? "..." : "");
+  std::string text{line.substr(0, longest)};
+  for (auto& c : text) // cut off, or no UTF-8 from the beginning
+    if (c < 0)
+      c = '?';
+  return printable(std::move(text)) + (line.size() > longest ? "..." : "");
 }
 
 std::string_view line_pipe::ask(std::string_view lines,

@@ -82,7 +82,7 @@ map_of() {
 runs_kept() { find "$work/sweep/runs" -maxdepth 1 -mindepth 1 ! -name '.*' | wc -l; }
 
 policy_faults() {
-  local scenario=$root/config/bench/single_intersection.toml kind
+  local scenario=$root/config/bench/corridor_3sp.toml kind
   declare -A says=(
     [killed]="was ended by signal 9" [ended]="exited with 3"
     [silent]="did not answer in time" [slow]="did not answer in time"
