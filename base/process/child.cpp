@@ -97,6 +97,8 @@ void reset_signals() {
     failed = {start_failure::its_folder, errno};
   limit(RLIMIT_AS, what.limits.memory_octets, failed);
   limit(RLIMIT_CPU, what.limits.cpu_s, failed);
+  if (what.limits.nice > 0)
+    setpriority(PRIO_PROCESS, 0, what.limits.nice);
   if (failed.what == start_failure::none) {
     execve(what.file.c_str(), what.arguments.data(), what.environment.data());
     failed = {start_failure::its_file, errno};

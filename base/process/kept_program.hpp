@@ -19,7 +19,8 @@ namespace sofof {
 /// What is kept, and how patient its keeper is.
 struct kept_setup {
   child_setup how;
-  std::string configuration;   ///< Lines KEY=VALUE.
+  std::string configuration;   ///< Lines KEY=VALUE,
+  std::string activation;      ///< and those with each `activate`.
   std::size_t most_octets = 0; ///< Of a result.
   /// On the wall clock: a program that is not ready, or does not answer, for
   /// longer is ended. Both > 0.
@@ -32,7 +33,14 @@ struct kept_setup {
   /// Whether an input waits for a program that is not ready yet; else there is
   /// no result until it is.
   bool waits_for_start = false;
+  /// @returns one that has been started already, if there is one; else it is
+  /// started when it is needed. May be empty.
+  std::function<std::unique_ptr<framed_program>()> take_started{};
 };
+
+/// Starts a program as it is kept.
+/// @throws input_error when the system refuses that.
+std::unique_ptr<framed_program> start_program(const kept_setup& setup);
 
 /// Whether a program is there, as it changes.
 struct program_news {

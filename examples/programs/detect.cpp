@@ -1,10 +1,8 @@
 // Object detection as a program, by OpenCV: a grey JPEG in, boxes of bright
 // cars out, as detect.py says them.
 #include "examples/programs/service_program.hpp"
-
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-
 #include <optional>
 
 namespace {
@@ -15,8 +13,7 @@ constexpr int least_area = 100; // of a car there
 
 std::optional<service_program::octets>
 detect(const service_program::input& frame) {
-  const auto picture =
-      cv::imdecode(frame.what, cv::IMREAD_REDUCED_GRAYSCALE_2);
+  const auto picture = cv::imdecode(frame.what, cv::IMREAD_REDUCED_GRAYSCALE_2);
   if (picture.empty())
     return std::nullopt; // it is no JPEG
   cv::Mat is_bright, labels, found, centres;

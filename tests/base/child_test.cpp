@@ -149,6 +149,13 @@ TEST_CASE("a child gets no more memory than its limit") {
   CHECK((end.code > 0 || end.signal > 0));
 }
 
+TEST_CASE("a child steps back behind others") {
+  auto humble = shell("cut -d' ' -f19 /proc/self/stat");
+  humble.limits.nice = 7;
+  child steps_back{humble};
+  CHECK(std::atoi(all_of(steps_back).c_str()) >= 7);
+}
+
 TEST_CASE("a child gets no more CPU time than its limit") {
   auto busy = shell("while :; do :; done");
   busy.limits.cpu_s = 1;

@@ -27,6 +27,7 @@ scenario::scenario_definition with(const std::string& behaviour,
                                    std::vector<std::string> more = {}) {
   more.insert(more.begin(),
               {"duration=5s", "fleet.0.count=2",
+               "service.object_detection.most_result_octets=30000",
                fmt::format("service.object_detection.command=\"{} {}\"",
                            SOFOF_ODD_PROGRAM, behaviour)});
   return scenario::load_scenario(file, more);

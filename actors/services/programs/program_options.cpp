@@ -32,11 +32,13 @@ void program_options::visit_options(option_visitor& s) {
   }
   s.field("memory_mib", memory_mib, {0, most});
   s.field("cpu_s", cpu_s, {0, most});
+  s.field("nice", nice, {0, 19});
   if (s.has("cgroup", !cgroup.empty()))
     s.field("cgroup", cgroup);
   s.field("start_limit", start_limit, 1ms);
   s.field("answer_limit", answer_limit, 1ms);
   s.field("restart_pause", restart_pause, 1ms);
+  s.field("spares", spares, {0, 64});
 }
 
 void program_options::locate(const fs::path& beside) {
@@ -71,7 +73,8 @@ kept_setup program_options::setup(std::string configuration,
                   .folder = folder,
                   .environment = {},
                   .limits = {static_cast<std::uint64_t>(memory_mib) * mib,
-                             static_cast<std::uint64_t>(cpu_s), cgroup},
+                             static_cast<std::uint64_t>(cpu_s),
+                             static_cast<int>(nice), cgroup},
                   .ends_with_thread = true},
           .configuration = std::move(configuration),
           .most_octets = most_octets,
