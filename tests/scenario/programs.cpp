@@ -153,7 +153,7 @@ TEST_CASE("what is wrong with a program is said before anything runs") {
   CHECK(contains(refusal({at("input.folder=\"nowhere\"")}),
                  "there are no .jpg files in "));
   CHECK(contains(refusal({at("input.folder=\"\"")}),
-                 "must name a folder of .jpg files."));
+                 "must name a folder of .jpg files"));
   CHECK(contains(refusal({at("input=\"camra\"")}), "camera"));
   CHECK(contains(refusal({at("most_input_octets=100")}), "cannot be read: "));
   CHECK(contains(refusal({at("least_result_octets=2000")}),

@@ -25,8 +25,7 @@ void program_options::visit_options(option_visitor& s) {
   constexpr double most = 1 << 30;
   s.field("command", command);
   try {
-    if (command_words(command).empty())
-      s.refuse("command", "must name a program.");
+    command_words(command);
   } catch (const std::invalid_argument& problem) {
     s.refuse("command", fmt::format("cannot be read: {}.", problem.what()));
   }
@@ -43,7 +42,10 @@ void program_options::visit_options(option_visitor& s) {
 
 void program_options::locate(const fs::path& beside) {
   folder = beside;
-  const auto name = command_words(command).front();
+  const auto words = command_words(command);
+  if (words.empty())
+    throw std::invalid_argument{"`command` must name a program"};
+  const auto& name = words.front();
   if (!find_program(name, folder))
     throw std::invalid_argument{
         name.find('/') == name.npos
