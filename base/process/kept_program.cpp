@@ -111,6 +111,7 @@ bool kept_program::is_up(time_point now,
     runs_->look();
   } else if (runs_->is_ready(until)) {
     is_ready_ = true;
+    ready_at_ = now;
     if (std::exchange(is_missed_, false))
       on_news_({.is_there = true, .why = {}});
   } else if (runs_->objection().empty()
@@ -129,6 +130,8 @@ void kept_program::note_death(time_point now) {
 
 void kept_program::lose(time_point now, std::string why) {
   runs_.reset(); // kills what is left of it
+  if (is_ready_ && now - ready_at_ >= pause_)
+    pause_ = setup_.first_pause;
   again_at_ = now + pause_;
   pause_ = std::min(2 * pause_, setup_.longest_pause);
   is_missed_ = true;

@@ -27,7 +27,8 @@ struct kept_setup {
   std::chrono::milliseconds start_limit{10'000};
   std::chrono::milliseconds answer_limit{1'000};
   /// In the run's time: so long after its death a program is started again,
-  /// twice as long after each that comes before it has given a result.
+  /// twice as long after the next one, unless it has given a result or lived
+  /// for longer than that before.
   duration first_pause = std::chrono::milliseconds{500};
   duration longest_pause = std::chrono::seconds{10};
   /// Whether an input waits for a program that is not ready yet; else there is
@@ -91,6 +92,7 @@ private:
   bool is_active_ = false;
   bool is_missed_ = false; // it has died, and is not ready again
   bool is_ready_ = false;
+  time_point ready_at_;
   time_point again_at_;
   duration pause_;
   std::uint64_t inputs_ = 0;

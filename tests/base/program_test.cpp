@@ -67,6 +67,18 @@ struct kept {
   std::string news;
 };
 
+/// Looks at a program until it is ready.
+bool wait_for_id(kept& of) {
+  const auto before = of.news.size();
+  for (int k = 0; k < 200; ++k) {
+    std::this_thread::sleep_for(1ms);
+    of.program->look(of.now);
+    if (of.news.size() > before)
+      return true;
+  }
+  return of.program->id().has_value();
+}
+
 } // namespace
 
 TEST_CASE("a program answers each input, and is told each step of its life") {
@@ -154,6 +166,24 @@ TEST_CASE("whoever dies at once is started less and less often") {
   }
   CHECK(deaths >= 4);
   CHECK(deaths <= 6); // after 0.5, 1, 2, 4 … s
+}
+
+TEST_CASE("who has lived for a while before it dies is there again soon") {
+  kept mortal{{}};
+  mortal.start();
+  for (int k = 0; k < 6; ++k) {
+    CAPTURE(k);
+    REQUIRE(wait_for_id(mortal));
+    mortal.now += 2s; // without any input
+    kill(*mortal.program->id(), SIGKILL);
+    for (int wait = 0; wait < 10'000 && mortal.program->id(); ++wait) {
+      std::this_thread::sleep_for(1ms);
+      mortal.program->look(mortal.now);
+    }
+    mortal.now += 500ms;
+    mortal.program->look(mortal.now);
+    CHECK(mortal.program->id());
+  }
 }
 
 TEST_CASE("what a program does wrong is said, and it is ended") {
