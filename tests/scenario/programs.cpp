@@ -138,6 +138,38 @@ TEST_CASE("inputs are what their source says") {
   }
 }
 
+TEST_CASE("a program may get what another one of its vehicle has found") {
+  const test::scratch folder;
+  auto text = test::read_file(file);
+  const auto absolute = [&](std::string_view path) {
+    const auto at = text.find(path);
+    REQUIRE(at != text.npos);
+    text.insert(at, SOFOF_SOURCE_DIR "/config/");
+  };
+  absolute("maps/ulm_lehr.toml");
+  absolute("frames\"");
+  text += fmt::format("[[service]]\nname = \"second\"\n"
+                      "command = \"{}\"\n"
+                      "input = {{ name = \"program\", service = "
+                      "\"object_detection\" }}\n",
+                      SOFOF_ODD_PROGRAM);
+  test::write_text(folder / "two.toml", text);
+  const auto records = test::play(scenario::load_scenario(
+      folder / "two.toml",
+      std::vector<std::string>{
+          "duration=5s", "fleet.0.count=2",
+          fmt::format("service.object_detection.command=\"{}\"",
+                      SOFOF_ODD_PROGRAM),
+          "service.object_detection.most_result_octets=30000"}));
+  CHECK(std::ranges::count_if(
+            records.cycles,
+            [](const auto& x) {
+              return x.used
+                     && x.session.service == messages::service_name{"second"};
+            })
+        >= 50);
+}
+
 TEST_CASE("what is wrong with a program is said before anything runs") {
   const auto at = [](std::string_view option) {
     return "service.object_detection." + std::string{option};
