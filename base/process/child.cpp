@@ -98,8 +98,6 @@ void reset_signals() {
     failed = {start_failure::its_folder, errno};
   set_limit(RLIMIT_AS, what.limits.memory_octets, failed);
   set_limit(RLIMIT_CPU, what.limits.cpu_s, failed);
-  if (what.limits.nice > 0)
-    setpriority(PRIO_PROCESS, 0, what.limits.nice);
   if (failed.what == start_failure::none) {
     execve(what.file.c_str(), what.arguments.data(), what.environment.data());
     failed = {start_failure::its_file, errno};
@@ -209,6 +207,9 @@ child::child(const child_setup& setup) {
     reap();
     refuse_to_start(words.front(), failed.thing(), failed.error);
   }
+  // Only now: this thread has waited for it to become the program.
+  if (setup.limits.nice > 0)
+    setpriority(PRIO_PROCESS, static_cast<id_t>(pid_), setup.limits.nice);
 }
 
 child::~child() {

@@ -183,6 +183,31 @@ def used_share(run):
 def detection():
     largest = max(x.stat().st_size for x in (ROOT / "config/frames").glob("*.jpg"))
     row("largest picture", f"{largest} octets", "<= 30000", largest <= 30000)
+    examples, frames = ROOT / "examples/programs", ROOT / "config/frames"
+    subprocess.run([sys.executable, "-B", examples / "make_frames.py",
+                    WORK / "frames", "8"], check=True)
+    same = all((WORK / "frames" / x.name).read_bytes() == x.read_bytes()
+               for x in frames.iterdir())
+    row("pictures made again", "the same" if same else "others", "the same", same)
+    checked = subprocess.run(
+        [sys.executable, "-B", examples / "check_frames.py", frames, sys.executable,
+         "-B", examples / "detect.py"], capture_output=True, text=True)
+    row("detect.py", checked.stdout.strip().split(";")[0], "all cars",
+        checked.returncode == 0)
+    build = WORK / "examples"
+    subprocess.run(["cmake", "-S", examples, "-B", build,
+                    "-DCMAKE_BUILD_TYPE=Release"], check=True,
+                   stdout=subprocess.DEVNULL)
+    subprocess.run(["cmake", "--build", build], check=True, stdout=subprocess.DEVNULL)
+    if (build / "detect").exists():
+        checked = subprocess.run(
+            [sys.executable, "-B", examples / "check_frames.py", frames,
+             build / "detect"], capture_output=True, text=True)
+        used_ms = float(re.search(r"([\d.]+) ms of CPU", checked.stdout)[1])
+        row("detect by OpenCV, computing time a picture", f"{used_ms} ms", "<= 8 ms",
+            checked.returncode == 0 and used_ms <= 8)
+    else:
+        row("detect by OpenCV", "it is not installed", "none", None)
     run = Run("detection", 20 if SHORT else 60)
     run.ends_well("6 cars, 2 providers, paper_5g")
     share, count = used_share(run)
