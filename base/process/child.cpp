@@ -209,7 +209,8 @@ child::child(const child_setup& setup) {
   }
   // Only now: this thread has waited for it to become the program.
   if (setup.limits.nice > 0)
-    setpriority(PRIO_PROCESS, static_cast<id_t>(pid_), setup.limits.nice);
+    setpriority(PRIO_PROCESS, static_cast<id_t>(pid_),
+                getpriority(PRIO_PROCESS, 0) + setup.limits.nice);
 }
 
 child::~child() {
