@@ -55,13 +55,13 @@ struct prepared_child {
 /// Open in a child beside its standard files.
 constexpr int first_other_file = STDERR_FILENO + 1;
 
-void limit(int resource, std::uint64_t most, start_failure& failed) {
+void set_limit(int resource, std::uint64_t most, start_failure& failed) {
   const rlimit both{most, most};
   if (most > 0 && setrlimit(static_cast<__rlimit_resource>(resource), &both))
     failed = {start_failure::its_limits, errno};
 }
 
-void enter(const char* cgroup, start_failure& failed) {
+void enter_cgroup(const char* cgroup, start_failure& failed) {
   const auto fd = open(cgroup, O_WRONLY | O_CLOEXEC);
   if (fd < 0 || write(fd, "0", 1) != 1)
     failed = {start_failure::its_cgroup, errno};
@@ -78,7 +78,8 @@ void reset_signals() {
 }
 
 /// In the child.
-[[noreturn]] void become(const prepared_child& what, int socket, int report) {
+[[noreturn]] void become_program(const prepared_child& what, int socket,
+                                 int report) {
   constexpr auto cannot_start = 127;
   start_failure failed;
   setpgid(0, 0);
@@ -92,11 +93,11 @@ void reset_signals() {
   dup2(socket, STDOUT_FILENO);
   close_range(first_other_file, ~0U, CLOSE_RANGE_CLOEXEC);
   if (!what.cgroup.empty())
-    enter(what.cgroup.c_str(), failed);
+    enter_cgroup(what.cgroup.c_str(), failed);
   if (!what.folder.empty() && chdir(what.folder.c_str()) != 0)
     failed = {start_failure::its_folder, errno};
-  limit(RLIMIT_AS, what.limits.memory_octets, failed);
-  limit(RLIMIT_CPU, what.limits.cpu_s, failed);
+  set_limit(RLIMIT_AS, what.limits.memory_octets, failed);
+  set_limit(RLIMIT_CPU, what.limits.cpu_s, failed);
   if (failed.what == start_failure::none) {
     execve(what.file.c_str(), what.arguments.data(), what.environment.data());
     failed = {start_failure::its_file, errno};
@@ -118,7 +119,7 @@ struct both_ends {
 };
 
 /// Waits until the child is the program, or has said why not.
-start_failure outcome(int report) {
+start_failure start_outcome(int report) {
   start_failure failed;
   ssize_t count = 0;
   do
@@ -128,14 +129,14 @@ start_failure outcome(int report) {
 }
 
 /// @returns the name of a variable in "NAME=value".
-std::string_view variable(std::string_view assignment) {
+std::string_view variable_of(std::string_view assignment) {
   return assignment.substr(0, assignment.find('='));
 }
 
 /// The strings outlive what is made of them.
-prepared_child prepare(const child_setup& setup,
-                       std::vector<std::string>& words,
-                       std::vector<std::string>& variables) {
+prepared_child prepare_child(const child_setup& setup,
+                             std::vector<std::string>& words,
+                             std::vector<std::string>& variables) {
   const auto file = find_program(setup.command.front(), setup.folder);
   if (!file)
     throw input_error{
@@ -143,7 +144,7 @@ prepared_child prepare(const child_setup& setup,
   for (auto** one = environ; *one; ++one) {
     bool is_replaced = false;
     for (const auto& other : setup.environment)
-      is_replaced |= variable(other) == variable(*one);
+      is_replaced |= variable_of(other) == variable_of(*one);
     if (!is_replaced)
       variables.emplace_back(*one);
   }
@@ -184,7 +185,7 @@ child::child(const child_setup& setup) {
   assert(!setup.command.empty());
   auto words = setup.command;
   std::vector<std::string> variables;
-  const auto prepared = prepare(setup, words, variables);
+  const auto prepared = prepare_child(setup, words, variables);
   std::array<int, 2> fds{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, fds.data()) != 0)
     refuse_to_start(words.front(), "a socket", errno);
@@ -197,15 +198,19 @@ child::child(const child_setup& setup) {
   if (pid_ < 0)
     refuse_to_start(words.front(), "a process", errno);
   if (pid_ == 0)
-    become(prepared, talk.its.get(), report.its.get());
+    become_program(prepared, talk.its.get(), report.its.get());
   setpgid(pid_, pid_); // whoever of the two comes first
   report.its = {};
   socket_ = std::move(talk.ours);
-  if (const auto failed = outcome(report.ours.get());
+  if (const auto failed = start_outcome(report.ours.get());
       failed.what != start_failure::none) {
     reap();
     refuse_to_start(words.front(), failed.thing(), failed.error);
   }
+  // Only now: this thread has waited for it to become the program.
+  if (setup.limits.nice > 0)
+    setpriority(PRIO_PROCESS, static_cast<id_t>(pid_),
+                getpriority(PRIO_PROCESS, 0) + setup.limits.nice);
 }
 
 child::~child() {

@@ -21,6 +21,7 @@ namespace sofof {
 struct child_limits {
   std::uint64_t memory_octets = 0; ///< Of address space: RLIMIT_AS.
   std::uint64_t cpu_s = 0;         ///< In its whole life: RLIMIT_CPU.
+  int nice = 0; ///< It steps back behind others by this, 0 to 19.
   /// Folder of a control group that this process may put children into, with
   /// whatever limits it has; empty: none.
   std::filesystem::path cgroup;

@@ -41,10 +41,11 @@ void framed_program::look() {
   read_some();
 }
 
-void framed_program::tell(frame_kind kind, std::int64_t time_ns) {
+void framed_program::tell(frame_kind kind, std::int64_t time_ns,
+                          std::string_view lines) {
   if (!objection_.empty())
     return;
-  append_frame(waiting_, kind, time_ns, 0, {});
+  append_frame(waiting_, kind, time_ns, 0, octets_of(lines));
   write_waiting();
   if (waiting_.size() > most_waiting)
     objection_ = "does not read what it is told";

@@ -40,7 +40,8 @@ public:
   void look();
 
   /// Tells it something; it is sent as soon as it reads.
-  void tell(frame_kind kind, std::int64_t time_ns);
+  /// @param lines  KEY=VALUE, or nothing.
+  void tell(frame_kind kind, std::int64_t time_ns, std::string_view lines = {});
 
   /// Gives it an input and waits for the answer.
   /// @param number  Higher than those before.

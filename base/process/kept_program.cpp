@@ -22,6 +22,11 @@ constexpr std::chrono::milliseconds grace{200};
 
 } // namespace
 
+std::unique_ptr<framed_program> start_program(const kept_setup& setup) {
+  return std::make_unique<framed_program>(setup.how, setup.configuration,
+                                          setup.most_octets);
+}
+
 kept_program::kept_program(kept_setup setup,
                            std::function<void(program_news)> on_news)
     : setup_{std::move(setup)}, on_news_{std::move(on_news)},
@@ -38,7 +43,7 @@ void kept_program::configure(time_point now) {
 void kept_program::activate(time_point now) {
   is_active_ = true;
   if (runs_)
-    runs_->tell(frame_kind::activate, in_ns(now));
+    runs_->tell(frame_kind::activate, in_ns(now), setup_.activation);
 }
 
 void kept_program::deactivate(time_point now) {
@@ -81,14 +86,16 @@ void kept_program::start(time_point now) {
   is_ready_ = false;
   inputs_ = 0;
   try {
-    runs_ = std::make_unique<framed_program>(setup_.how, setup_.configuration,
-                                             setup_.most_octets);
+    if (setup_.take_started)
+      runs_ = setup_.take_started();
+    if (!runs_)
+      runs_ = start_program(setup_);
   } catch (const input_error& problem) {
     return lose(now, problem.what());
   }
   ready_by_ = framed_program::clock::now() + setup_.start_limit;
   if (is_active_)
-    runs_->tell(frame_kind::activate, in_ns(now));
+    runs_->tell(frame_kind::activate, in_ns(now), setup_.activation);
 }
 
 /// @param until  So long it may take to be ready.
@@ -104,6 +111,7 @@ bool kept_program::is_up(time_point now,
     runs_->look();
   } else if (runs_->is_ready(until)) {
     is_ready_ = true;
+    ready_at_ = now;
     if (std::exchange(is_missed_, false))
       on_news_({.is_there = true, .why = {}});
   } else if (runs_->objection().empty()
@@ -122,6 +130,8 @@ void kept_program::note_death(time_point now) {
 
 void kept_program::lose(time_point now, std::string why) {
   runs_.reset(); // kills what is left of it
+  if (is_ready_ && now - ready_at_ >= pause_)
+    pause_ = setup_.first_pause;
   again_at_ = now + pause_;
   pause_ = std::min(2 * pause_, setup_.longest_pause);
   is_missed_ = true;

@@ -19,20 +19,29 @@ namespace sofof {
 /// What is kept, and how patient its keeper is.
 struct kept_setup {
   child_setup how;
-  std::string configuration;   ///< Lines KEY=VALUE.
+  std::string configuration;   ///< Lines KEY=VALUE,
+  std::string activation;      ///< and those with each `activate`.
   std::size_t most_octets = 0; ///< Of a result.
   /// On the wall clock: a program that is not ready, or does not answer, for
   /// longer is ended. Both > 0.
   std::chrono::milliseconds start_limit{10'000};
   std::chrono::milliseconds answer_limit{1'000};
   /// In the run's time: so long after its death a program is started again,
-  /// twice as long after each that comes before it has given a result.
+  /// twice as long after the next one, unless it has given a result or lived
+  /// for longer than that before.
   duration first_pause = std::chrono::milliseconds{500};
   duration longest_pause = std::chrono::seconds{10};
   /// Whether an input waits for a program that is not ready yet; else there is
   /// no result until it is.
   bool waits_for_start = false;
+  /// @returns one that has been started already, if there is one; else it is
+  /// started when it is needed. May be empty.
+  std::function<std::unique_ptr<framed_program>()> take_started{};
 };
+
+/// Starts a program as it is kept.
+/// @throws input_error when the system refuses that.
+std::unique_ptr<framed_program> start_program(const kept_setup& setup);
 
 /// Whether a program is there, as it changes.
 struct program_news {
@@ -83,6 +92,7 @@ private:
   bool is_active_ = false;
   bool is_missed_ = false; // it has died, and is not ready again
   bool is_ready_ = false;
+  time_point ready_at_;
   time_point again_at_;
   duration pause_;
   std::uint64_t inputs_ = 0;

@@ -32,7 +32,8 @@ struct handlers {
   /// @returns the result; nullopt if this input has none.
   std::function<std::optional<octets>(const input&)> run;
   std::function<void(const configuration&)> configure = {};
-  std::function<void(bool is_active)> activate = {};
+  /// @param told  With `is_active`: the `station` of the vehicle.
+  std::function<void(bool is_active, const configuration& told)> activate = {};
 };
 
 namespace detail {
@@ -132,7 +133,8 @@ inline int serve(const handlers& does) {
       case activate:
       case deactivate:
         if (does.activate)
-          does.activate(detail::number_at(header + 4, 2) == activate);
+          does.activate(detail::number_at(header + 4, 2) == activate,
+                        detail::lines_of(frame.what));
         break;
       case given: {
         const auto made = does.run(frame);

@@ -17,8 +17,8 @@ class Program:
     def configure(self, configuration: dict[str, str]) -> None:
         """Called once, before all else."""
 
-    def activate(self, is_active: bool) -> None:
-        """Inputs will come, or will not."""
+    def activate(self, is_active: bool, told: dict[str, str]) -> None:
+        """Inputs will come, or will not; at first it is told the `station`."""
 
     def run(self, time_ns: int, number: int, what: bytes) -> bytes | None:
         """Returns the result of an input; None if it has none."""
@@ -31,6 +31,9 @@ class Program:
         os.dup2(2, 1)
         read = sys.stdin.buffer.read
 
+        def told(lines: bytes) -> dict[str, str]:
+            return dict(x.split("=", 1) for x in lines.decode().splitlines())
+
         def send(kind: int, time_ns: int, number: int, what: bytes = b"") -> None:
             out.write(HEADER.pack(len(what), kind, 0, time_ns, number) + what)
             out.flush()
@@ -42,11 +45,10 @@ class Program:
                 if len(what) < length:
                     return 0
                 if kind == CONFIGURE:
-                    lines = what.decode().splitlines()
-                    self.configure(dict(x.split("=", 1) for x in lines))
+                    self.configure(told(what))
                     send(READY, time_ns, number)
                 elif kind in (ACTIVATE, DEACTIVATE):
-                    self.activate(kind == ACTIVATE)
+                    self.activate(kind == ACTIVATE, told(what))
                 elif kind == INPUT:
                     result = self.run(time_ns, number, what)
                     if result is None:

@@ -149,6 +149,15 @@ TEST_CASE("a child gets no more memory than its limit") {
   CHECK((end.code > 0 || end.signal > 0));
 }
 
+TEST_CASE("a child steps back behind others") {
+  auto humble = shell("read x; cut -d' ' -f19 /proc/self/stat");
+  humble.limits.nice = 7;
+  child steps_back{humble};
+  const std::string line = "go\n";
+  steps_back.write_some(std::as_bytes(std::span{line}));
+  CHECK(std::atoi(all_of(steps_back).c_str()) >= 7);
+}
+
 TEST_CASE("a child gets no more CPU time than its limit") {
   auto busy = shell("while :; do :; done");
   busy.limits.cpu_s = 1;

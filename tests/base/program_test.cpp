@@ -1,6 +1,7 @@
 // Programs that serve as functions: what they say, how they die, and that they
 // are there again.
 #include "base/process/kept_program.hpp"
+#include "base/process/spare_programs.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -40,6 +41,7 @@ struct kept {
     setup.how.command.insert(setup.how.command.end(), words.begin(),
                              words.end());
     setup.configuration = "service=odd\n";
+    setup.activation = "station=7\n";
     setup.most_octets = 1000;
     setup.answer_limit = 10'000ms; // only hung programs take longer
     setup.start_limit = waits ? 10'000ms : 100ms;
@@ -65,6 +67,18 @@ struct kept {
   std::string news;
 };
 
+/// Looks at a program until it is ready.
+bool wait_for_id(kept& of) {
+  const auto before = of.news.size();
+  for (int k = 0; k < 200; ++k) {
+    std::this_thread::sleep_for(1ms);
+    of.program->look(of.now);
+    if (of.news.size() > before)
+      return true;
+  }
+  return of.program->id().has_value();
+}
+
 } // namespace
 
 TEST_CASE("a program answers each input, and is told each step of its life") {
@@ -74,10 +88,10 @@ TEST_CASE("a program answers each input, and is told each step of its life") {
   CHECK(echo.ask("") == "");
   kept steps{{"tells_its_steps"}};
   steps.start();
-  CHECK(steps.ask("?") == "service=odd on ");
+  CHECK(steps.ask("?") == "service=odd on station=7 ");
   steps.program->deactivate(steps.now);
   steps.program->activate(steps.now);
-  CHECK(steps.ask("?") == "service=odd on off on ");
+  CHECK(steps.ask("?") == "service=odd on station=7 off on station=7 ");
   const auto id = steps.program->id();
   steps.program->shut_down(steps.now);
   CHECK(id);
@@ -107,6 +121,39 @@ TEST_CASE("a program that dies is there again after a pause, and as it was") {
   CHECK(mortal.news == "was ended by signal 9 (Killed). there. ");
 }
 
+TEST_CASE("a program that has been started before is taken as it is") {
+  kept ready{{"tells_its_process"}};
+  auto started = start_program(ready.setup);
+  const auto id = std::to_string(started->id());
+  ready.setup.take_started = [&] { return std::move(started); };
+  ready.start();
+  CHECK(ready.ask("?") == id);
+  kill(std::stoi(id), SIGKILL);
+  CHECK(ready.ask("?") == "nothing");
+  ready.now += 500ms; // there is no other one: it is started
+  const auto other = ready.ask("?");
+  REQUIRE(ready.program->id());
+  CHECK(other == std::to_string(*ready.program->id()));
+}
+
+TEST_CASE("spare programs are there before they are needed, and reaped") {
+  const kept ready{{"tells_its_process"}};
+  spare_programs spares{ready.setup, 2};
+  const auto first = spares.take();
+  const auto second = spares.take();
+  REQUIRE(first);
+  REQUIRE(second);
+  CHECK(first->id() != second->id());
+  kill(second->id(), SIGKILL); // not a spare any more
+  spares.look();
+  CHECK(spares.take());
+  const kept none{{}};
+  auto missing = none.setup;
+  missing.how.command = {"no_such_program"};
+  CHECK(!spare_programs(missing, 3).take());
+  CHECK(!spare_programs(ready.setup, 0).take());
+}
+
 TEST_CASE("whoever dies at once is started less and less often") {
   kept brief{{"exits", "0"}};
   brief.start();
@@ -119,6 +166,24 @@ TEST_CASE("whoever dies at once is started less and less often") {
   }
   CHECK(deaths >= 4);
   CHECK(deaths <= 6); // after 0.5, 1, 2, 4 … s
+}
+
+TEST_CASE("who has lived for a while before it dies is there again soon") {
+  kept mortal{{}};
+  mortal.start();
+  for (int k = 0; k < 6; ++k) {
+    CAPTURE(k);
+    REQUIRE(wait_for_id(mortal));
+    mortal.now += 2s; // without any input
+    kill(*mortal.program->id(), SIGKILL);
+    for (int wait = 0; wait < 10'000 && mortal.program->id(); ++wait) {
+      std::this_thread::sleep_for(1ms);
+      mortal.program->look(mortal.now);
+    }
+    mortal.now += 500ms;
+    mortal.program->look(mortal.now);
+    CHECK(mortal.program->id());
+  }
 }
 
 TEST_CASE("what a program does wrong is said, and it is ended") {

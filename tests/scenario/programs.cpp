@@ -27,6 +27,7 @@ scenario::scenario_definition with(const std::string& behaviour,
                                    std::vector<std::string> more = {}) {
   more.insert(more.begin(),
               {"duration=5s", "fleet.0.count=2",
+               "service.object_detection.most_result_octets=30000",
                fmt::format("service.object_detection.command=\"{} {}\"",
                            SOFOF_ODD_PROGRAM, behaviour)});
   return scenario::load_scenario(file, more);
@@ -137,6 +138,38 @@ TEST_CASE("inputs are what their source says") {
   }
 }
 
+TEST_CASE("a program may get what another one of its vehicle has found") {
+  const test::scratch folder;
+  auto text = test::read_file(file);
+  const auto absolute = [&](std::string_view path) {
+    const auto at = text.find(path);
+    REQUIRE(at != text.npos);
+    text.insert(at, SOFOF_SOURCE_DIR "/config/");
+  };
+  absolute("maps/ulm_lehr.toml");
+  absolute("frames\"");
+  text += fmt::format("[[service]]\nname = \"second\"\n"
+                      "command = \"{}\"\n"
+                      "input = {{ name = \"program\", service = "
+                      "\"object_detection\" }}\n",
+                      SOFOF_ODD_PROGRAM);
+  test::write_text(folder / "two.toml", text);
+  const auto records = test::play(scenario::load_scenario(
+      folder / "two.toml",
+      std::vector<std::string>{
+          "duration=5s", "fleet.0.count=2",
+          fmt::format("service.object_detection.command=\"{}\"",
+                      SOFOF_ODD_PROGRAM),
+          "service.object_detection.most_result_octets=30000"}));
+  CHECK(std::ranges::count_if(
+            records.cycles,
+            [](const auto& x) {
+              return x.used
+                     && x.session.service == messages::service_name{"second"};
+            })
+        >= 50);
+}
+
 TEST_CASE("what is wrong with a program is said before anything runs") {
   const auto at = [](std::string_view option) {
     return "service.object_detection." + std::string{option};
@@ -152,7 +185,7 @@ TEST_CASE("what is wrong with a program is said before anything runs") {
   CHECK(contains(refusal({at("input.folder=\"nowhere\"")}),
                  "there are no .jpg files in "));
   CHECK(contains(refusal({at("input.folder=\"\"")}),
-                 "must name a folder of .jpg files."));
+                 "must name a folder of .jpg files"));
   CHECK(contains(refusal({at("input=\"camra\"")}), "camera"));
   CHECK(contains(refusal({at("most_input_octets=100")}), "cannot be read: "));
   CHECK(contains(refusal({at("least_result_octets=2000")}),

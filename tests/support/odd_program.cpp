@@ -73,7 +73,11 @@ int main(int count, char** words) {
     for (const auto& [key, value] : all)
       told += key + "=" + value + " ";
   };
-  does.activate = [&](bool is_active) { told += is_active ? "on " : "off "; };
+  does.activate = [&](bool is_active, const auto& all) {
+    told += is_active ? "on " : "off ";
+    for (const auto& [key, value] : all)
+      told += key + "=" + value + " ";
+  };
   does.run = [&](const service_program::input& x) -> std::optional<octets> {
     if (what == "tells_its_steps")
       return octets{told.begin(), told.end()};

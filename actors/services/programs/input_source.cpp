@@ -37,13 +37,12 @@ class camera_input final : public input_source {
 public:
   std::string_view name() const override { return "camera"; }
 
-  void visit_options(option_visitor& s) override {
-    s.field("folder", folder_);
-    if (folder_.empty())
-      s.refuse("folder", "must name a folder of .jpg files.");
-  }
+  void visit_options(option_visitor& s) override { s.field("folder", folder_); }
 
   void load(const fs::path& beside, std::size_t most) override {
+    if (folder_.empty())
+      throw std::invalid_argument{"`folder` of its input must name a folder "
+                                  "of .jpg files"};
     const auto folder = beside / folder_;
     files_.clear();
     frames_.clear();

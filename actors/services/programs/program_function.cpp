@@ -14,6 +14,8 @@ program_function::program_function(kept_setup what, program_session whose)
 offloading::service_output
 program_function::run(time_point now, const messages::service_input& input) {
   now_ = now;
+  if (whose_.besides)
+    whose_.besides();
   const auto given = input.what.as<program_octets>();
   if (!given || given->octets.size() > whose_.most_input_octets)
     return {};

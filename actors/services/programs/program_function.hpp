@@ -20,6 +20,7 @@ namespace sofof::actors {
 struct program_session {
   messages::event_record about; ///< What each of its events says.
   std::function<void(messages::event_record)> report;
+  std::function<void()> besides{}; ///< Called with each input; may be empty.
   std::size_t most_input_octets = 0;
   /// Computing times of cycles, in turn; empty: none was measured.
   std::shared_ptr<const std::vector<duration>> run_times{};

@@ -25,23 +25,27 @@ void program_options::visit_options(option_visitor& s) {
   constexpr double most = 1 << 30;
   s.field("command", command);
   try {
-    if (command_words(command).empty())
-      s.refuse("command", "must name a program.");
+    command_words(command);
   } catch (const std::invalid_argument& problem) {
     s.refuse("command", fmt::format("cannot be read: {}.", problem.what()));
   }
   s.field("memory_mib", memory_mib, {0, most});
   s.field("cpu_s", cpu_s, {0, most});
+  s.field("nice", nice, {0, 19});
   if (s.has("cgroup", !cgroup.empty()))
     s.field("cgroup", cgroup);
   s.field("start_limit", start_limit, 1ms);
   s.field("answer_limit", answer_limit, 1ms);
   s.field("restart_pause", restart_pause, 1ms);
+  s.field("spares", spares, {0, 64});
 }
 
 void program_options::locate(const fs::path& beside) {
   folder = beside;
-  const auto name = command_words(command).front();
+  const auto words = command_words(command);
+  if (words.empty())
+    throw std::invalid_argument{"`command` must name a program"};
+  const auto& name = words.front();
   if (!find_program(name, folder))
     throw std::invalid_argument{
         name.find('/') == name.npos
@@ -71,7 +75,8 @@ kept_setup program_options::setup(std::string configuration,
                   .folder = folder,
                   .environment = {},
                   .limits = {static_cast<std::uint64_t>(memory_mib) * mib,
-                             static_cast<std::uint64_t>(cpu_s), cgroup},
+                             static_cast<std::uint64_t>(cpu_s),
+                             static_cast<int>(nice), cgroup},
                   .ends_with_thread = true},
           .configuration = std::move(configuration),
           .most_octets = most_octets,

@@ -18,10 +18,12 @@ struct program_options {
   std::string command;            ///< Its words: base/process/child.hpp.
   std::int64_t memory_mib = 2048; ///< Of address space, each; 0: no limit.
   std::int64_t cpu_s = 0;         ///< In the life of each; 0: no limit.
-  std::string cgroup;             ///< Folder of a control group; empty: none.
+  std::int64_t nice = 5; ///< It steps back behind SOFOF itself by this.
+  std::string cgroup;    ///< Folder of a control group; empty: none.
   duration start_limit = std::chrono::seconds{10};
   duration answer_limit = std::chrono::seconds{1};
   duration restart_pause = std::chrono::milliseconds{500};
+  std::int64_t spares = 1;      ///< Started ahead at a provider.
   std::filesystem::path folder; ///< Where it stands; no option.
 
   void visit_options(option_visitor& s);

@@ -3,6 +3,7 @@
 #include "actors/services/programs/program_sides.hpp"
 
 #include "actors/services/programs/program_function.hpp"
+#include "base/process/spare_programs.hpp"
 
 #include <fmt/format.h>
 
@@ -13,31 +14,30 @@ namespace sofof::actors {
 namespace {
 
 /// What programs are told first.
-std::string configuration_of(const program_side& what, std::string_view side,
-                             station_id station, bool is_virtual) {
-  return fmt::format("protocol=1\nservice={}\nside={}\nstation={}\ntime={}\n"
-                     "most_result_octets={}\n",
-                     what.service.view(), side, station,
-                     is_virtual ? "virtual" : "real",
-                     what.octets.most_result_octets);
+kept_setup setup_of(const program_side& what, std::string_view side,
+                    bool is_virtual) {
+  const auto most = what.octets.most_result_octets;
+  auto setup = what.program.setup(
+      fmt::format("protocol=1\nservice={}\nside={}\ntime={}\n"
+                  "most_result_octets={}\n",
+                  what.service.view(), side, is_virtual ? "virtual" : "real",
+                  most),
+      static_cast<std::size_t>(most), is_virtual);
+  // For people who look at processes.
+  setup.how.environment = {fmt::format("SOFOF_SERVICE={}", what.service.view()),
+                           fmt::format("SOFOF_SIDE={}", side)};
+  return setup;
 }
 
 std::shared_ptr<offloading::service_function>
-make_program_function(const program_side& what, std::string_view side,
+make_program_function(const program_side& what, kept_setup setup,
                       station_id station, program_session whose) {
+  setup.activation = fmt::format("station={}\n", station);
   whose.most_input_octets =
       static_cast<std::size_t>(what.octets.most_input_octets);
   whose.run_times = what.run_times;
   whose.about.station = station;
   whose.about.service = what.service;
-  auto setup = what.program.setup(
-      configuration_of(what, side, station, whose.is_virtual),
-      static_cast<std::size_t>(what.octets.most_result_octets),
-      whose.is_virtual);
-  // For people who look at processes.
-  setup.how.environment = {fmt::format("SOFOF_SERVICE={}", what.service.view()),
-                           fmt::format("SOFOF_SIDE={}", side),
-                           fmt::format("SOFOF_STATION={}", station)};
   return std::make_shared<program_function>(std::move(setup), std::move(whose));
 }
 
@@ -75,7 +75,10 @@ public:
       : what_{std::move(what)}, where_{where} {}
 
   std::shared_ptr<offloading::service_function> make_function() const override {
-    return make_program_function(what_, "vehicle", where_.station,
+    auto setup = setup_of(what_, "vehicle", where_.virtual_time);
+    setup.how.environment.push_back(
+        fmt::format("SOFOF_STATION={}", where_.station));
+    return make_program_function(what_, std::move(setup), where_.station,
                                  {.about = {},
                                   .report = where_.report,
                                   .is_virtual = where_.virtual_time});
@@ -94,19 +97,30 @@ class programs_at_provider final : public offloading::provider_service {
 public:
   programs_at_provider(program_side what,
                        const offloading::provider_context& where)
-      : what_{std::move(what)}, where_{where} {}
+      : what_{std::move(what)}, where_{where}, setup_{setup_of(
+                                                   what_, "provider",
+                                                   where_.virtual_time)},
+        spares_{std::make_shared<spare_programs>(
+            setup_, static_cast<std::size_t>(what_.program.spares))} {}
 
   std::shared_ptr<offloading::service_function>
   make_function(station_id vehicle) override {
-    return make_program_function(what_, "provider", vehicle,
+    auto setup = setup_;
+    setup.take_started =
+        [spare = std::make_shared<std::unique_ptr<framed_program>>(
+             spares_->take())] { return std::move(*spare); };
+    return make_program_function(what_, std::move(setup), vehicle,
                                  {.about = {.provider = where_.id},
                                   .report = where_.report,
+                                  .besides = [all = spares_] { all->look(); },
                                   .is_virtual = where_.virtual_time});
   }
 
 private:
   program_side what_;
   offloading::provider_context where_;
+  kept_setup setup_;
+  std::shared_ptr<spare_programs> spares_; // for sessions to come
 };
 
 } // namespace
