@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <cstdio>
 #include <fcntl.h>
 #include <filesystem>
 #include <iostream>
@@ -48,24 +48,33 @@ std::string text_for(std::string_view name) {
   return text;
 }
 
-/// Writes a file that was not there before.
+/// @returns the error of the system, 0 for none.
+int write_all(int file, std::string_view text) {
+  while (!text.empty()) {
+    const auto written = write(file, text.data(), text.size());
+    if (written < 0 && errno != EINTR)
+      return errno;
+    text.remove_prefix(static_cast<std::size_t>(std::max(written, ssize_t{0})));
+  }
+  return 0;
+}
+
+/// Writes a file that was not there before, whole or not at all.
 void write_new(const fs::path& file, std::string_view text) {
   const auto out =
       open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (out < 0 && errno == EEXIST)
+  auto error = out < 0 ? errno : write_all(out, text);
+  if (out >= 0 && close(out) != 0 && error == 0)
+    error = errno;
+  if (error == 0)
+    return;
+  if (error == EEXIST)
     throw input_error{
         fmt::format("{} is there already; choose another name, or remove it.",
                     file.string())};
-  if (out < 0)
-    refuse_to_write(fmt::format("{} cannot be written: {}.", file.string(),
-                                std::generic_category().message(errno)),
-                    errno);
-  const auto written = write(out, text.data(), text.size());
-  const auto error = errno;
-  if (close(out) == 0 && written == static_cast<ssize_t>(text.size()))
-    return;
   std::error_code ignored;
-  fs::remove(file, ignored);
+  if (out >= 0)
+    fs::remove(file, ignored);
   refuse_to_write(fmt::format("{} cannot be written: {}.", file.string(),
                               std::generic_category().message(error)),
                   error);

@@ -21,6 +21,9 @@ options=(
   -DCAF_ENABLE_EXAMPLES=OFF
   -DCAF_ENABLE_TESTING=OFF
   -DCAF_ENABLE_TOOLS=OFF
+  -DCAF_ENABLE_OPENSSL_MODULE=OFF # TLS is network/tls
+  -DCMAKE_UNITY_BUILD=ON # most time went into parsing the same headers
+  -DCMAKE_UNITY_BUILD_BATCH_SIZE=12
 )
 recipe=$({ cat "$patch" && echo "${options[*]} $(uname -m)"; } | sha256sum)
 prefix=$cache/caf-$version-${recipe:0:12}
@@ -52,6 +55,7 @@ if [[ ! -d $prefix ]]; then
       -DCMAKE_INSTALL_PREFIX="$prefix"
     ninja -C "$work/build"
     DESTDIR=$work/root cmake --install "$work/build" >"$work/install.log"
+    install -D -m 644 "$work/LICENSE" "$work/root$prefix/share/doc/caf/LICENSE"
   } >&2
   mv -T "$work/root$prefix" "$prefix"
 fi

@@ -105,6 +105,8 @@ TEST_CASE("The schemas accept every file in config") {
     ++files;
   }
   CHECK(files > 40);
+  const auto first = read_file(SOFOF_SOURCE_DIR "/apps/new/scenario.toml");
+  CHECK(checks.find("scenario")->second(toml_as_json(first)) == "");
 }
 
 TEST_CASE("The schema accepts what `sofof check` prints of a scenario") {
