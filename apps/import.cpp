@@ -46,15 +46,8 @@ void tell(const maps::imported_map& map, const world::streets& made,
                            made.map.conflicts().size(), map.routes.size());
   for (const auto& [what, count] : map.left_out)
     std::cout << fmt::format("  left out: {} ({})\n", what, count);
-  constexpr std::size_t most_warnings = 20;
-  for (std::size_t i = 0; i < map.warnings.size(); ++i)
-    if (i < most_warnings)
-      std::fputs(fmt::format("sofof: {}\n", map.warnings[i]).c_str(), stderr);
-  if (map.warnings.size() > most_warnings)
-    std::fputs(fmt::format("sofof: and {} more; `sofof map {}` shows all.\n",
-                           map.warnings.size() - most_warnings, out)
-                   .c_str(),
-               stderr);
+  for (const auto& warning : map.warnings)
+    std::fputs(fmt::format("sofof: {}\n", warning).c_str(), stderr);
 }
 
 void import_map(const import_arguments& args) {

@@ -87,13 +87,23 @@ void find_routes(const source_map& source, const std::vector<drawn_lane>& lanes,
   }
 }
 
+/// One sentence for all of them: a city may have dozens.
 void warn_of_bends(const std::vector<drawn_lane>& lanes, imported_map& to) {
+  std::string names;
+  auto count = 0;
+  auto sharpest_1pm = 0.0;
   for (const auto& l : lanes)
-    if (!l.is_drivable())
-      to.warnings.push_back(fmt::format(
-          "lane \"{}\" bends with a radius of {:.1f} m; a car needs {:.1f} m, "
-          "so no way leads over it.",
-          l.is.name, 1 / l.sharpest_1pm, 1 / sharpest_drivable_1pm));
+    if (!l.is_drivable()) {
+      names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", l.is.name);
+      sharpest_1pm = std::max(sharpest_1pm, l.sharpest_1pm);
+      ++count;
+    }
+  if (count > 0)
+    to.warnings.push_back(fmt::format(
+        "no car can follow {} of {} lanes, and no way leads over them: a car "
+        "needs a radius of {:.1f} m, they bend with down to {:.1f} m: {}.",
+        count, lanes.size(), 1 / sharpest_drivable_1pm, 1 / sharpest_1pm,
+        names));
 }
 
 } // namespace

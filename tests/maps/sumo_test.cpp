@@ -86,6 +86,18 @@ TEST_CASE("a turn is as wide as a car needs it") {
   CHECK(lane_of(map, ":J_3_0").half_width_m > 1.75);
 }
 
+TEST_CASE(
+    "lanes that no car can follow are named, and no way leads over them") {
+  const auto text = with("-1.60,-10.00 -1.60,-100.00",
+                         "-1.60,-10.00 -1.60,-60 -12,-60 -12,-90");
+  const auto map = imported(text, "t.net.xml");
+  REQUIRE(map.warnings.size() == 1);
+  CHECK(map.warnings[0].starts_with("no car can follow 1 of 13 lanes"));
+  CHECK(map.warnings[0].ends_with(": \"south_out_0\"."));
+  for (const auto& r : map.routes)
+    CHECK(std::ranges::find(r.lanes, "south_out_0") == r.lanes.end());
+}
+
 TEST_CASE("routes of SUMO lead over lanes, and vehicles depart on them") {
   const auto net = text_of("t_junction.net.xml");
   const auto demand = text_of("t_junction.rou.xml");
