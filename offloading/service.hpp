@@ -176,6 +176,10 @@ struct provider_context {
   std::function<time_point()> clock = [] { return time_point{}; };
   provider_id id = 0;        ///< Another one after each start.
   bool virtual_time = false; ///< As in a vehicle.
+  /// Where a provider is that rides with a vehicle; empty: one that stands.
+  std::function<point()> rides{};
+
+  point place() const { return rides ? rides() : position; } ///< Now.
 };
 
 /// A service at one provider. Where time is real, functions of several sessions
