@@ -63,7 +63,7 @@ bool provider::is_consistent() const {
     return station.is_consistent() && station.latest.station == id
            && station.heard <= now_
            && !protocol::is_of_future(station.latest.at, now_)
-           && (area_.moved_at() > station.heard
+           && (area_.moved_at() >= station.heard
                || station.is_inside == is_inside(station.latest))
            && std::ranges::all_of(station.sessions, [this](const auto& x) {
                 return x.session.counter <= last_session_ && x.since <= now_;
