@@ -143,10 +143,12 @@ using provider_actor = caf::typed_actor<
     // The requester has ended a session.
     reacts_to<service_end>>;
 
-/// SP, as its own sensors see it.
+/// SP, as its own sensors see it, and the vehicle that it rides with.
 using roadside_provider_actor = provider_actor::extend<
     // One of them has looked at the road.
-    reacts_to<roadside_detections>>;
+    reacts_to<roadside_detections>,
+    // That vehicle is here, every protocol::ego_period.
+    reacts_to<ego_state>>;
 
 /// All that crosses the air between one vehicle and one provider. It looks
 /// like the far end to both of them: to the provider and its managers like a

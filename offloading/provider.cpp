@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 namespace sofof::offloading {
@@ -28,9 +29,8 @@ cycle_setup cycle_of(const offered_service& service,
 }
 
 provider::provider(provider_setup setup, provider_port& port)
-    : setup_{std::move(setup)}, port_{port}, trace_{
-                                                 messages::trace_part::provider,
-                                                 sink_of(setup_.trace, port)} {
+    : setup_{std::move(setup)}, area_{setup_.area}, port_{port},
+      trace_{messages::trace_part::provider, sink_of(setup_.trace, port)} {
   assert(setup_.policy && setup_.map);
   assert(setup_.computer.workers > 0);
   assert(std::ranges::all_of(setup_.services, [](const offered_service& x) {
@@ -63,7 +63,8 @@ bool provider::is_consistent() const {
     return station.is_consistent() && station.latest.station == id
            && station.heard <= now_
            && !protocol::is_of_future(station.latest.at, now_)
-           && station.is_inside == setup_.area.contains(station.latest.position)
+           && (area_.moved_at() >= station.heard
+               || station.is_inside == is_inside(station.latest))
            && std::ranges::all_of(station.sessions, [this](const auto& x) {
                 return x.session.counter <= last_session_ && x.since <= now_;
               });
@@ -148,8 +149,10 @@ void provider::on_cam(const messages::cam& c, peer_id from, time_point now) {
     return; // overtaken on its way
   if (protocol::is_of_future(c.at, now))
     return; // all true ones would seem overtaken
+  if (c.station == carrier_)
+    return; // nobody serves itself
   trace_.add(step::heard, setup_.id, c.station, now,
-             setup_.area.contains(c.position) ? "inside" : "outside");
+             is_inside(c) ? "inside" : "outside");
   auto [i, is_new] = stations_.try_emplace(c.station);
   auto& station = i->second;
   if (is_new) {
@@ -171,12 +174,27 @@ void provider::on_cam(const messages::cam& c, peer_id from, time_point now) {
   assert(is_consistent());
 }
 
+void provider::on_ride(const messages::cam& carrier, time_point now) {
+  pass(now);
+  assert(setup_.reach_m);
+  carrier_ = carrier.station;
+  setup_.position = carrier.position;
+  const point ahead{std::cos(carrier.heading_rad),
+                    std::sin(carrier.heading_rad)};
+  area_.move(carrier.position, carrier.speed_mps * ahead, now);
+  assert(is_consistent());
+}
+
+bool provider::is_inside(const messages::cam& c) const {
+  return area_.contains(c.position, c.at);
+}
+
 // Who comes into the area is offered to at once, and who leaves it loses its
 // services.
 void provider::locate(station_record& station, time_point now) {
   const auto where = station.latest.position;
   const auto was_inside =
-      std::exchange(station.is_inside, setup_.area.contains(where));
+      std::exchange(station.is_inside, is_inside(station.latest));
   if (station.is_inside) {
     for (auto& x : station.sessions)
       x.was_inside = true;
@@ -245,7 +263,7 @@ void provider::offer(station_record& station, time_point now) {
     if (!station.find(service.name))
       idle.push_back(service.name);
   assert(idle.size() + station.sessions.size() == setup_.services.size());
-  if (idle.empty())
+  if (idle.empty() && !setup_.reach_m)
     return;
   station.next_offer = now + protocol::offer_period;
   const messages::service_offer made{
@@ -255,9 +273,17 @@ void provider::offer(station_record& station, time_point now) {
       .utilisation = utilisation(),
       .workers = static_cast<std::uint32_t>(setup_.computer.workers),
       .computing = from_seconds(setup_.computer.mean_s),
-      .created = now};
+      .created = now,
+      .moves = motion()};
   trace_.add(step::offer_sent, made, station.latest.station, now);
   port_.send(*station.requester, made);
+}
+
+// @returns how the provider moves; nothing if it stands where it is.
+std::optional<messages::provider_motion> provider::motion() const {
+  if (!setup_.reach_m)
+    return std::nullopt;
+  return messages::provider_motion{area_.velocity_mps(), *setup_.reach_m};
 }
 
 void provider::forget(stations::iterator i, const ending& why, time_point now) {

@@ -2,6 +2,7 @@
 // offered, and for which they run.
 #pragma once
 
+#include "base/moving_area.hpp"
 #include "messages/protocol/qos.hpp"
 #include "messages/protocol/record.hpp"
 #include "offloading/ending.hpp"
@@ -48,6 +49,9 @@ struct provider_setup {
       std::make_shared<const world::road_map>();
   random_stream noise{0, ""}; ///< Of this provider.
   bool trace = false;         ///< Record each step.
+  /// Of a provider that rides with a vehicle: it serves who is nearer, m, and
+  /// `area` lies round (0, 0), which stands for where the vehicle is.
+  std::optional<double> reach_m{};
 };
 
 /// A session that begins.
@@ -104,6 +108,9 @@ public:
 /// * Every protocol::offer_period, and when it comes into the area, a station
 ///   is offered what does not run for it. Whether it has to be in the area is
 ///   the policy's business.
+/// * A CAM counts by where the area was when it was made.
+/// * A provider that rides with a vehicle offers on while all services run:
+///   offers tell where it is. Its carrier is not served.
 /// * A station leaves the area with a CAM from outside; whom the policy accepts
 ///   though it asks from outside leaves it when it has been inside.
 /// * Requests are answered at once, or together at the end of the policy's
@@ -129,6 +136,10 @@ public:
   /// Source: Dehler & Buchholz 2025, "CAM check" of fig. 2.
   /// @param from  Where its requester is reached.
   void on_cam(const messages::cam& c, peer_id from, time_point now);
+
+  /// The vehicle that the provider rides with is here now, and moves like this:
+  /// so does the area. Who is in it is found by the next CAMs.
+  void on_ride(const messages::cam& carrier, time_point now);
 
   /// A request with a number that is not above the last one is ignored.
   void on_request(const messages::service_request& request, peer_id from,
@@ -233,7 +244,9 @@ private:
   void meet(station_id id, station_record& station, peer_id requester,
             time_point now);
   void leave(station_record& station, const ending& why, time_point now);
+  bool is_inside(const messages::cam& c) const;
   void locate(station_record& station, time_point now);
+  std::optional<messages::provider_motion> motion() const;
   void offer(station_record& station, time_point now);
   void begin_digests(station_record& station, time_point now);
   void forget(stations::iterator i, const ending& why, time_point now);
@@ -267,6 +280,8 @@ private:
   double utilisation() const;
 
   provider_setup setup_;
+  moving_area area_;
+  std::optional<station_id> carrier_; // once it has moved
   provider_port& port_;
   tracer trace_;
   stations stations_;

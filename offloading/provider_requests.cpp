@@ -182,16 +182,19 @@ provider::ask_policy(std::vector<policies::request_view> asked,
       running.push_back(x.session);
     }
   assert(running.size() == sessions.size());
-  auto decided = setup_.policy->decide({.now = now,
-                                        .requests = asked,
-                                        .sessions = sessions,
-                                        .utilisation = utilisation(),
-                                        .workers = setup_.computer.workers,
-                                        .area = setup_.area,
-                                        .map = *setup_.map,
-                                        .self = setup_.id,
-                                        .noise = setup_.noise.part("decisions"),
-                                        .number = ++decisions_});
+  const auto area = area_.at(now);
+  auto decided =
+      setup_.policy->decide({.now = now,
+                             .requests = asked,
+                             .sessions = sessions,
+                             .utilisation = utilisation(),
+                             .workers = setup_.computer.workers,
+                             .area = area,
+                             .map = *setup_.map,
+                             .self = setup_.id,
+                             .noise = setup_.noise.part("decisions"),
+                             .number = ++decisions_,
+                             .area_velocity_mps = area_.velocity_mps()});
   const auto most = asked.size() + running.size();
   for (auto k = asked.size(); k < std::min(decided.size(), most); ++k)
     if (const auto& session = running[k - asked.size()];
@@ -275,7 +278,7 @@ void provider::start(station_record& station,
   assert(task.offset >= duration{0} && task.offset < service.options.period);
   const auto& route = open.what.route;
   const auto asked_inside =
-      !route.empty() && setup_.area.contains(route.front());
+      !route.empty() && area_.contains(route.front(), now);
   station.sessions.push_back({session, now, task, terms.worker,
                               open.what.candidates,
                               station.is_inside || asked_inside});

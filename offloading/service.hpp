@@ -181,6 +181,10 @@ struct provider_context {
   provider_id id = 0;        ///< Another one after each start.
   bool virtual_time = false; ///< As in a vehicle.
   std::function<void(messages::event_record)> report{}; ///< Likewise.
+  /// Where a provider is that rides with a vehicle; empty: one that stands.
+  std::function<point()> rides{};
+
+  point place() const { return rides ? rides() : position; } ///< Now.
 };
 
 /// A service at one provider. Where time is real, functions of several sessions

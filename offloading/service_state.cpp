@@ -22,6 +22,16 @@ bool known_provider::offers(const messages::service_name& service) const {
   return std::ranges::find(offer.services, service) != offer.services.end();
 }
 
+point known_provider::position(time_point now) const {
+  assert(offered_at <= now);
+  if (!offer.moves)
+    return offer.position;
+  const auto since = now - offer.created.value_or(offered_at);
+  const auto passed =
+      std::clamp(since, duration{0}, duration{protocol::offer_validity});
+  return offer.position + to_seconds(passed) * offer.moves->velocity_mps;
+}
+
 service_state::service_state(onboard_service what,
                              const world::computer_options& computer,
                              time_point now)
@@ -151,14 +161,17 @@ policies::provider_view service_state::view_of(const known_provider& provider,
   const auto as_of =
       is_standby(offer.provider) ? link.last().value_or(now) : now;
   return {.id = offer.provider,
-          .at = offer.position,
+          .at = provider.position(now),
           .utilisation = std::max(0.0, offer.utilisation),
           .workers = offer.workers,
           .computing_s = to_seconds(computing(offer)),
           .link = {link.late_probability(needs.max_latency, as_of),
                    link.gap_probability(needs.max_interarrival, as_of),
                    link.latency_quantile(0.5), link.latency_quantile(0.99)},
-          .cost = offloaded};
+          .cost = offloaded,
+          .velocity_mps = offer.moves ? offer.moves->velocity_mps : point{},
+          .reach_m =
+              offer.moves ? std::optional{offer.moves->reach_m} : std::nullopt};
 }
 
 std::vector<policies::provider_view>

@@ -33,6 +33,9 @@ struct known_provider {
   policies::time_law way{};
 
   bool offers(const messages::service_name& service) const;
+  /// @returns where it is: of one that moves, where it has come since its
+  /// offer, at most for as long as that holds; m, east-north.
+  point position(time_point now) const;
 };
 
 using known_providers = std::map<provider_id, known_provider>;

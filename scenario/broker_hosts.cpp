@@ -185,6 +185,8 @@ run_outcome drive_by_broker(const scenario_definition& s,
   const auto side = std::make_shared<actors::vehicle_side>(
       time->system(), vehicles_setup(stations, broker, connection));
   for (std::size_t place = 0; place < s.providers.size(); ++place) {
+    if (s.providers[place].carrier)
+      continue;
     auto setup = connection_to(s, place, what, stations, board);
     setup.address = [text = print_broker(broker.url)] { return text; };
     setup.clock = time->clock();

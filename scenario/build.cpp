@@ -19,6 +19,7 @@
 #include "scenario/channel_oracle.hpp"
 #include "scenario/placement.hpp"
 #include "scenario/plan_limits.hpp"
+#include "scenario/roadside.hpp"
 #include "scenario/vehicle_connections.hpp"
 #include "scenario/vehicle_schedule.hpp"
 #include "scenario/vehicle_views.hpp"
@@ -30,6 +31,8 @@
 #include <algorithm>
 #include <map>
 #include <ranges>
+#include <tuple>
+#include <utility>
 
 namespace sofof::scenario {
 
@@ -42,36 +45,6 @@ random_stream noise_of(const scenario_definition& s, std::string_view what) {
 
 /// So long what was said last may take to leave this process.
 constexpr duration last_words = std::chrono::milliseconds{200};
-
-/// @returns those of providers; none where the cars drive in other processes:
-/// they would tell of an empty road, and speak against every car.
-std::vector<actors::roadside_sensor>
-sensors_beside(const scenario_definition& s,
-               const std::vector<provider_cell>& cells,
-               const process_share& here) {
-  if (here.serves_others)
-    return {};
-  const auto noise = noise_of(s, "roadside sensors");
-  std::vector<actors::roadside_sensor> beside;
-  for (std::size_t p = 0; p < cells.size(); ++p) {
-    const auto& own = cells[p].options->sensors;
-    const auto drawn = noise.part(cells[p].place);
-    for (std::size_t k = 0; k < own.size(); ++k)
-      beside.push_back({cells[p].provider, own[k].make(drawn.part(k))});
-  }
-  return beside;
-}
-
-/// @returns sensors of one kind, with the errors of the worse of two: of a
-/// track nobody remembers who saw it.
-world::sensor_params noisier(world::sensor_params one,
-                             const world::sensor_params& other) {
-  const auto worsen = [](double& x, double y) { x = std::max(x, y); };
-  worsen(one.position_noise_m, other.position_noise_m);
-  worsen(one.speed_noise_mps, other.speed_noise_mps);
-  worsen(one.heading_noise_rad, other.heading_noise_rad);
-  return one;
-}
 
 /// Gives the functions of one vehicle the cores that they share.
 void share_cores(std::vector<actors::client_service>& services,
@@ -155,7 +128,7 @@ public:
 
   world_actors build() {
     for (std::uint32_t k = 0; k < s_.providers.size(); ++k)
-      if (here_.provides(k))
+      if (lives_here(k))
         add_provider(k);
     for (const auto& to : here_.remotes)
       add_connection(to);
@@ -208,6 +181,12 @@ private:
 
   // -- providers ------------------------------------------------------------
 
+  // What rides with a vehicle lives where that does.
+  bool lives_here(std::uint32_t number) const {
+    const auto& carrier = s_.providers[number].carrier;
+    return carrier ? here_.drives(carrier->station) : here_.provides(number);
+  }
+
   void add_provider(std::uint32_t number) {
     const auto& options = s_.providers[number];
     world_.loads.push_back(
@@ -236,6 +215,9 @@ private:
                       std::move(channel), cell(load.cell_up),
                       cell(load.cell_down), load.octets_up, load.octets_down});
     world_.providers.push_back(cells_.back().provider);
+    if (const auto& carrier = s_.providers[number].carrier)
+      riders_[carrier->station] = {cells_.back().provider,
+                                   std::make_shared<channel::vehicle_place>()};
   }
 
   /// @returns what reads messages, and tells of CAMs whoever wants to know.
@@ -258,7 +240,9 @@ private:
     actors::provider_actor_setup setup;
     setup.id = provider_at(number + 1, start);
     setup.position = options.position_m;
-    setup.area = options.area();
+    setup.area = options.carrier ? options.area_round({}) : options.area();
+    if (options.carrier)
+      setup.reach_m = options.reach_m();
     const auto& own = options.streets;
     const auto& streets = own ? own : s_.world;
     setup.map = {streets, &streets->map};
@@ -298,7 +282,8 @@ private:
       ways[v.station] = v.way;
     world_.road = actors::spawn_road(
         sys_, {s_.world, std::move(ways), world::vehicle_params{}, s_.sensors,
-               noise_of(s_, "sensors"), sensors_beside(s_, cells_, here_),
+               noise_of(s_, "sensors"),
+               sensors_beside(noise_of(s_, "roadside sensors"), cells_, here_),
                obstacles(s_), world_.recorder, s_.traffic.grants_crossings()});
     watch(world_.road, "the road");
     world_.air =
@@ -329,7 +314,9 @@ private:
       setup.v2x = s_.v2x;
       setup.air = world_.air;
       setup.antennas = antennas_;
-      if (has_areas(s_))
+      if (const auto rider = riders_.find(v.station); rider != riders_.end())
+        std::tie(setup.rider, setup.place) = rider->second;
+      else if (has_areas(s_))
         setup.place = std::make_shared<channel::vehicle_place>();
       setup.connect = connect(v.station, !fleet.fails_at, setup.place);
     }
@@ -348,7 +335,11 @@ private:
         world_.supervisor);
     std::vector<actors::antenna> all;
     const auto add = [&](const provider_options& at) {
-      all.push_back({at.position_m, at.range_m});
+      auto& antenna = all.emplace_back(at.position_m, at.range_m);
+      if (at.carrier) {
+        antenna.carrier = at.carrier->station;
+        antenna.rides = riders_.at(at.carrier->station).second;
+      }
     };
     for (const auto& cell : connections_->cells())
       add(*cell.options);
@@ -452,6 +443,10 @@ private:
       decode_;
   std::vector<offloading::service> services_; // as in the scenario
   std::vector<provider_cell> cells_;          // until the vehicles are added
+  // By the vehicles that they ride with, and where these are.
+  std::map<station_id, std::pair<messages::roadside_provider_actor,
+                                 std::shared_ptr<channel::vehicle_place>>>
+      riders_;
   std::shared_ptr<const vehicle_connections> connections_;
   std::shared_ptr<const std::vector<actors::antenna>> antennas_;
   actors::comfortable_roads roads_;

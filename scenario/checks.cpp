@@ -167,7 +167,7 @@ void check_services(const scenario_definition& all, const toml_file& source) {
     const auto& offered = all.providers[p].services;
     for (std::size_t i = 0; i < offered.size(); ++i)
       if (std::ranges::find(names, offered[i]) == names.end())
-        source.refuse(fmt::format("provider.{}.services.{}", p, i),
+        source.refuse(fmt::format("{}.services.{}", all.key_of(p), i),
                       unknown_word("[[service]] here", offered[i], names));
   }
 }
@@ -179,7 +179,8 @@ void check_providers(const scenario_definition& all, const toml_file& source) {
             list.begin(), p,
             [&](const auto& earlier) { return earlier.name == p->name; })
         != p)
-      source.refuse(fmt::format("provider.{}.name", p - list.begin()),
+      source.refuse(all.key_of(static_cast<std::size_t>(p - list.begin()))
+                        + ".name",
                     fmt::format("there are two providers \"{}\".", p->name));
 }
 

@@ -4,6 +4,7 @@
 #include "base/geometry.hpp"
 #include "base/ids.hpp"
 #include "base/options/option_helpers.hpp"
+#include "scenario/ride_options.hpp"
 #include "world/vehicle/cycle_cost.hpp"
 
 #include <array>
@@ -41,6 +42,8 @@ struct fleet_options {
   /// that they have.
   std::optional<duration> fails_at;
   world::computer_options compute{}; ///< In each of them.
+  /// The provider that the first of them, or each, is besides.
+  std::optional<ride_options> provide;
 
   void visit_options(option_visitor& s) {
     using namespace std::chrono_literals;
@@ -64,6 +67,13 @@ struct fleet_options {
       s.field("fails_at", fails_at ? *fails_at : fails_at.emplace(), 1ns);
     s.moved("computer", "compute");
     s.table("compute", [this](option_visitor& t) { compute.visit_options(t); });
+    if (!s.has("provide", provide.has_value()))
+      return;
+    s.table("provide", [this](option_visitor& t) {
+      (provide ? *provide : provide.emplace()).visit_options(t);
+    });
+    if (!connected)
+      s.refuse("provide", "has no effect in vehicles that are not connected.");
   }
 };
 

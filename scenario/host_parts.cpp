@@ -43,7 +43,8 @@ std::uint64_t fingerprint_of_world(const scenario_definition& s, bool own_map) {
 std::string names_of(const scenario_definition& s) {
   std::string names;
   for (const auto& p : s.providers)
-    names += (names.empty() ? "" : ", ") + p.name;
+    if (!p.carrier)
+      names += (names.empty() ? "" : ", ") + p.name;
   return names.empty() ? "none" : names;
 }
 
@@ -95,17 +96,26 @@ figures_of(std::shared_ptr<network::key_ring> keys) {
 
 std::size_t find_provider(const scenario_definition& s, std::string_view name,
                           std::string_view option) {
-  if (name.empty() && s.providers.size() == 1)
-    return 0;
+  const auto standing = std::ranges::count_if(
+      s.providers, [](const auto& p) { return !p.carrier; });
+  if (name.empty() && standing == 1)
+    return 0; // those that ride are the last
+  if (name.empty() && standing == 0)
+    throw input_error("the scenario has no [[provider]], which alone runs on a "
+                      "host of its own");
   if (name.empty())
     throw input_error(fmt::format("the scenario has {} providers; say with {} "
                                   "which one is meant: {}",
-                                  s.providers.size(), option, names_of(s)));
+                                  standing, option, names_of(s)));
   const auto i = std::ranges::find(s.providers, name, &provider_options::name);
   if (i == s.providers.end())
     throw input_error(fmt::format("the scenario has no provider '{}'; choose "
                                   "with {} among {}",
                                   name, option, names_of(s)));
+  if (i->carrier)
+    throw input_error(fmt::format("provider {} rides with vehicle {} and runs "
+                                  "where that does, as part of `sofof drive`",
+                                  name, i->carrier->station));
   return static_cast<std::size_t>(i - s.providers.begin());
 }
 

@@ -5,6 +5,7 @@
 #include "base/options/toml_file.hpp"
 #include "scenario/checks.hpp"
 #include "scenario/map_file.hpp"
+#include "scenario/placement.hpp"
 #include "scenario/policy_files.hpp"
 #include "scenario/quality_file.hpp"
 
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <set>
@@ -151,6 +153,31 @@ void load_programs(scenario_definition& all, const fs::path& folder,
     }
 }
 
+/// Adds the providers that ride with vehicles.
+void add_riders(scenario_definition& all) {
+  for (std::size_t f = 0; f < all.fleets.size(); ++f) {
+    const auto& fleet = all.fleets[f];
+    if (!fleet.provide)
+      continue;
+    const auto cars = fleet.provide->is_in_all() ? fleet.count : 1;
+    for (std::int64_t i = 0; i < cars; ++i) {
+      const auto carrier = static_cast<station_id>(fleet.first_station + i);
+      all.providers.push_back(fleet.provide->in_vehicle(carrier, f));
+      all.providers.back().fails_at = fleet.fails_at;
+    }
+  }
+}
+
+/// They ride off where their vehicles start.
+void place_riders(scenario_definition& all) {
+  std::map<station_id, point> starts;
+  for (const auto& v : place_vehicles(all))
+    starts[v.station] = v.way->path().at(v.start_s_m).at;
+  for (auto& p : all.providers)
+    if (p.carrier)
+      p.position_m = starts.at(p.carrier->station);
+}
+
 /// Gives everybody a channel, and computers as they fit to it.
 void complete_networks(scenario_definition& all) {
   const auto share = [&all](network_options& network) {
@@ -193,6 +220,7 @@ scenario_definition parse(std::string_view text, const fs::path& file,
   if (const auto grid = std::exchange(all.provider_grid, std::nullopt))
     for (auto& p : grid->all())
       all.providers.push_back(std::move(p));
+  add_riders(all);
   complete_networks(all);
   const auto folder = file.parent_path();
   if (!all.network.trace.empty())
@@ -203,6 +231,7 @@ scenario_definition parse(std::string_view text, const fs::path& file,
   load_world(all, folder, source);
   load_provider_maps(all, folder, source);
   check_whole(all, source);
+  place_riders(all);
   if (is_run)
     load_programs(all, folder, source);
   return all;

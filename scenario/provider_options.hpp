@@ -3,6 +3,7 @@
 
 #include "actors/services/programs/program_options.hpp"
 #include "base/geometry.hpp"
+#include "base/ids.hpp"
 #include "base/options/option_helpers.hpp"
 #include "channel/channel_profile.hpp"
 #include "channel/provider_compute.hpp"
@@ -79,6 +80,21 @@ struct compute_options {
   channel::provider_compute computers() const;
 };
 
+/// Lists the names of what a provider offers.
+void visit_services(option_visitor& s, std::vector<std::string>& services);
+/// Lists a provider's own channel, if it has one.
+void visit_own_network(option_visitor& s,
+                       std::optional<network_options>& network);
+/// Likewise its own computers.
+void visit_own_compute(option_visitor& s,
+                       std::optional<compute_options>& compute);
+
+/// The vehicle that a provider rides with.
+struct provider_carrier {
+  station_id station = 0;
+  std::size_t fleet = 0; ///< Its place in the file.
+};
+
 /// Where a provider is, and what it offers.
 struct provider_options {
   std::string name = "mec";
@@ -103,10 +119,19 @@ struct provider_options {
   std::optional<compute_options> compute; ///< Likewise.
   std::optional<duration> fails_at;       ///< It dies then, without goodbye,
   std::optional<duration> returns_at;     ///< and boots again.
+  /// No option: what rides is made of `ride_options`. Its place is where the
+  /// vehicle starts.
+  std::optional<provider_carrier> carrier;
 
   /// A loaded scenario's provider has one.
   /// @throws std::invalid_argument for a bad polygon.
   polygon area() const;
+
+  /// @returns the regular area, if it lay round this point.
+  polygon area_round(point centre) const;
+
+  /// @returns how near who is surely in the regular area, m.
+  double reach_m() const;
 
   bool offers(std::string_view service) const;
 
@@ -136,12 +161,7 @@ struct provider_options {
         s.refuse("map", "must be a file or \"none\"; leave it out for the "
                         "scenario's.");
     }
-    if (s.has("services", !services.empty())) {
-      s.field("services", services);
-      if (services.empty())
-        s.refuse("services", "must name at least one service; leave it out to "
-                             "offer all.");
-    }
+    visit_services(s, services);
     visit_list(s, "sensor", sensors);
     visit_list(s, "program", programs);
     if (s.has("fails_at", fails_at.has_value()))
@@ -158,21 +178,8 @@ struct provider_options {
       s.field("radio", radio);
     s.moved("network.workers", "compute.workers");
     s.moved("network.more_computing", "compute.more_computing");
-    if (s.has("network", network.has_value()))
-      s.table("network", [this](option_visitor& t) {
-        if (!network)
-          network.emplace();
-        network->visit_options(t);
-        if (network->profile.replays
-            && (network->profile.trace.empty() || !network->trace.empty()))
-          t.refuse("profile", "replays a file, which only [network] can.");
-      });
-    if (s.has("compute", compute.has_value()))
-      s.table("compute", [this](option_visitor& t) {
-        if (!compute)
-          compute.emplace();
-        compute->visit_options(t);
-      });
+    visit_own_network(s, network);
+    visit_own_compute(s, compute);
   }
 };
 

@@ -149,7 +149,7 @@ wanted_providers(const scenario_definition& s, const drive_options& what) {
   auto all = what.providers;
   if (what.registry)
     for (const auto& p : s.providers)
-      if (std::ranges::none_of(all, [&](const auto& x) {
+      if (!p.carrier && std::ranges::none_of(all, [&](const auto& x) {
             return x.name == p.name
                    || (x.name.empty() && s.providers.size() == 1);
           }))

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -94,10 +95,66 @@ world::sensor roadside_options::make(random_stream noise) const {
 }
 
 polygon provider_options::area() const {
-  if (!area_m.empty())
-    return polygon{area_m};
-  return polygon::regular(position_m, area_radius_m,
+  return area_m.empty() ? area_round(position_m) : polygon{area_m};
+}
+
+polygon provider_options::area_round(point centre) const {
+  return polygon::regular(centre, area_radius_m,
                           static_cast<unsigned>(area_corners));
+}
+
+double provider_options::reach_m() const {
+  return area_radius_m
+         * std::cos(std::numbers::pi / static_cast<double>(area_corners));
+}
+
+provider_options ride_options::in_vehicle(station_id carrier,
+                                          std::size_t fleet) const {
+  provider_options made;
+  made.name = is_in_all() ? fmt::format("{}_{}", name, carrier) : name;
+  made.area_radius_m = area_radius_m;
+  made.area_corners = area_corners;
+  made.range_m = range_m;
+  made.services = services;
+  made.radio = radio;
+  made.network = network;
+  made.compute = compute;
+  made.carrier = {carrier, fleet};
+  return made;
+}
+
+void visit_services(option_visitor& s, std::vector<std::string>& services) {
+  if (!s.has("services", !services.empty()))
+    return;
+  s.field("services", services);
+  if (services.empty())
+    s.refuse("services", "must name at least one service; leave it out to "
+                         "offer all.");
+}
+
+void visit_own_network(option_visitor& s,
+                       std::optional<network_options>& network) {
+  if (!s.has("network", network.has_value()))
+    return;
+  s.table("network", [&network](option_visitor& t) {
+    if (!network)
+      network.emplace();
+    network->visit_options(t);
+    if (network->profile.replays
+        && (network->profile.trace.empty() || !network->trace.empty()))
+      t.refuse("profile", "replays a file, which only [network] can.");
+  });
+}
+
+void visit_own_compute(option_visitor& s,
+                       std::optional<compute_options>& compute) {
+  if (!s.has("compute", compute.has_value()))
+    return;
+  s.table("compute", [&compute](option_visitor& t) {
+    if (!compute)
+      compute.emplace();
+    compute->visit_options(t);
+  });
 }
 
 std::vector<provider_options> provider_grid_options::all() const {
@@ -226,6 +283,13 @@ scenario_definition::compute_of(std::size_t place) const {
   return (own ? *own : compute).computers();
 }
 
+std::string scenario_definition::key_of(std::size_t place) const {
+  assert(place < providers.size());
+  const auto& carrier = providers[place].carrier;
+  return carrier ? fmt::format("fleet.{}.provide", carrier->fleet)
+                 : fmt::format("provider.{}", place);
+}
+
 std::string scenario_definition::profiles() const {
   std::vector<std::string_view> names;
   for (const auto& p : providers) {
@@ -315,6 +379,9 @@ std::vector<std::string> chain_of(const scenario_definition& s) {
 }
 
 std::string to_toml(scenario_definition what) {
+  // What rides is said by the fleet that it rides with.
+  std::erase_if(what.providers,
+                [](const auto& p) { return p.carrier.has_value(); });
   return print_options([&](option_visitor& s) { what.visit_options(s); });
 }
 

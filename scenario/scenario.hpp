@@ -82,7 +82,8 @@ struct scenario_definition {
   std::vector<obstacle_options> obstacles; ///< `obstacle` in the file.
   world::sensor_params sensors;            ///< Of every vehicle.
   std::vector<provider_options> providers;
-  /// More of them; of a loaded scenario they are among `providers`.
+  /// More of them; of a loaded scenario they are among `providers`, and so are
+  /// those that ride with vehicles, as the last.
   std::optional<provider_grid_options> provider_grid;
   network_options network;
   compute_options compute; ///< Of providers that have none of their own.
@@ -109,6 +110,9 @@ struct scenario_definition {
 
   /// @returns how many vehicles all fleets have.
   std::int64_t vehicles() const;
+
+  /// @returns where the file says what a provider is, by its place.
+  std::string key_of(std::size_t place) const;
 
   /// @returns the computers of a provider, by its place. Precondition: the
   /// scenario was loaded.

@@ -33,12 +33,16 @@ std::vector<session_group> mix_of(const scenario_definition& all,
   return mix;
 }
 
-std::int64_t connected_vehicles(const scenario_definition& all) {
+/// @returns how many vehicles a provider may have to serve: nobody serves
+/// itself.
+std::int64_t connected_vehicles(const scenario_definition& all,
+                                std::size_t place) {
   std::int64_t count = 0;
   for (const auto& fleet : all.fleets)
     if (fleet.connected)
       count += fleet.count;
-  return count;
+  const auto rides = all.providers[place].carrier.has_value();
+  return rides ? std::max<std::int64_t>(count - 1, 1) : count;
 }
 
 auto responses(std::vector<session_group> mix, std::int64_t vehicles,
@@ -105,7 +109,7 @@ provider_schedule schedule_of(const scenario_definition& all,
   provider_schedule made;
   made.provider = all.providers[place].name;
   made.workers = all.compute_of(place).workers;
-  made.vehicles = connected_vehicles(all);
+  made.vehicles = connected_vehicles(all, place);
   const auto beginning = responses(mix, made.vehicles, made.workers, true);
   const auto running = responses(mix, made.vehicles, made.workers, false);
   std::size_t i = 0;

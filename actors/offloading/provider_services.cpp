@@ -21,18 +21,24 @@ constexpr double doubts_at_once = 50;
 
 provider_services::provider_services(const provider_actor_setup& setup,
                                      std::function<time_point()> clock)
-    : id_{setup.id}, compute_{setup.compute}, load_{setup.load},
+    : id_{setup.id}, place_{std::make_shared<channel::vehicle_place>()},
+      compute_{setup.compute}, load_{setup.load},
       workers_{std::make_shared<channel::shared_server_queue>(
           static_cast<unsigned>(compute_.workers), load_)},
       seed_{setup.seed}, number_{setup.number},
       virtual_time_{setup.virtual_time}, clock_{std::move(clock)},
       doubts_{doubts_per_s, doubts_at_once} {
+  offloading::provider_context here{provider_station(number_), setup.position,
+                                    clock_, id_, virtual_time_};
+  here.report = [recorder = setup.recorder](auto event) {
+    send_record(recorder, std::move(event));
+  };
+  if (setup.reach_m)
+    here.rides = [place = place_, from = setup.position] {
+      return place->last().value_or(from);
+    };
   for (const auto& what : setup.services) {
-    services_.push_back(at_provider(
-        what, {provider_station(number_), setup.position, clock_, id_,
-               virtual_time_, [recorder = setup.recorder](auto event) {
-                 send_record(recorder, std::move(event));
-               }}));
+    services_.push_back(at_provider(what, here));
     auto* listener = listener_of(*services_.back().here);
     if (listener && std::ranges::find(listeners_, listener) == listeners_.end())
       listeners_.push_back(listener); // services may share it
@@ -106,7 +112,8 @@ offloading::provider_setup rules_of(provider_actor_setup setup,
                        {longest.probability, longest.beyond_s}},
           .map = std::move(setup.map),
           .noise = setup.seed,
-          .trace = setup.trace};
+          .trace = setup.trace,
+          .reach_m = setup.reach_m};
 }
 
 } // namespace sofof::actors

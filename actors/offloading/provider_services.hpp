@@ -4,6 +4,7 @@
 #include "actors/offloading/broadcast_listener.hpp"
 #include "actors/offloading/service_provider.hpp"
 #include "channel/shared_server_queue.hpp"
+#include "channel/vehicle_place.hpp"
 #include "network/flow/token_bucket.hpp"
 #include "offloading/provider.hpp"
 #include "offloading/service_cycle.hpp"
@@ -21,6 +22,9 @@ public:
   /// @param clock  Of the provider's actor.
   provider_services(const provider_actor_setup& setup,
                     std::function<time_point()> clock);
+
+  /// The provider rides with a vehicle, which is here now.
+  void ride(point to) { place_->tell(to); }
 
   /// Each of them as it is here.
   const std::vector<offloading::offered_service>& offered() const {
@@ -53,6 +57,7 @@ private:
   messages::event_record record_of(const planners::station_doubt& doubt) const;
 
   provider_id id_;
+  std::shared_ptr<channel::vehicle_place> place_; // of one that rides
   std::vector<offloading::offered_service> services_;
   std::vector<broadcast_listener*> listeners_; // of some of them
   channel::provider_compute compute_;

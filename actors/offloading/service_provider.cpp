@@ -96,6 +96,10 @@ provider(provider_impl::stateful_pointer<provider_state> self,
       [self](const messages::roadside_detections& view) {
         self->state.tell([&](broadcast_listener& x) { x.on_detections(view); });
       },
+      [self](const messages::ego_state& carrier) {
+        self->state.services->ride(carrier.own.position);
+        self->state.rules->on_ride(carrier.own, now(self));
+      },
       [self](messages::tick_atom, std::uint64_t number) {
         self->state.rules->on_timer(number, now(self));
       },

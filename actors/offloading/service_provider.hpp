@@ -13,6 +13,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace sofof::actors {
@@ -35,6 +36,9 @@ struct provider_actor_setup {
   std::uint32_t number = 0; ///< Of the provider, for its draws.
   bool virtual_time = true; ///< Model computing times.
   bool trace = false;       ///< Record each step.
+  /// Of a provider that rides with a vehicle, as offloading::provider_setup has
+  /// it; then `position` is where it rides off.
+  std::optional<double> reach_m{};
 };
 
 /// Offers and runs services by the rules of offloading/provider. The listener

@@ -129,6 +129,8 @@ struct vehicle_actor_state {
   void on_perception(world::perception& others) {
     newest = std::move(others); // a report of this moment tells of it
     catch_up();
+    if (requester && !has_arrived)
+      links->show(newest, *car);
     if (!links->is_planned_for() || !setup.plans || has_arrived)
       return;
     const auto from = car->plan_from(now(self));
@@ -152,11 +154,8 @@ struct vehicle_actor_state {
   }
 
   void publish() {
-    if (!requester)
-      return;
-    const auto own = car->ego();
-    self->send(requester, own);
-    links->broadcast(own.own, newest, car->position(), requester);
+    if (requester)
+      links->publish(car->ego(), newest, car->position(), requester);
   }
 };
 

@@ -20,8 +20,18 @@ namespace sofof::actors {
 
 /// By which a provider hears vehicles while they are near enough.
 struct antenna {
-  point position; ///< m, east-north.
+  point position; ///< m, east-north; of one that rides, where it rides off.
   double range_m = 0;
+  /// The vehicle that it rides with, and where that is; nullopt: none.
+  std::optional<station_id> carrier{};
+  std::shared_ptr<const channel::vehicle_place> rides{};
+
+  /// @returns whether it is near enough to a vehicle there, which is not the
+  /// one that it rides with.
+  bool hears(station_id station, point from) const {
+    const auto here = rides ? rides->last() : std::optional{position};
+    return carrier != station && here && distance_m(from, *here) <= range_m;
+  }
 };
 
 /// What one vehicle is made of.
@@ -43,6 +53,10 @@ struct vehicle_setup {
   std::function<messages::link_actor(std::size_t)> connect;
   /// Is told where the vehicle is whenever the road is; null: nobody asks.
   std::shared_ptr<channel::vehicle_place> place;
+  /// The provider that rides with it; null: none. It is told by wire where the
+  /// vehicle is, what that sees and what it tells everybody, but is never asked
+  /// for anything by it, and ends when the vehicle leaves the streets.
+  messages::roadside_provider_actor rider;
   messages::air_actor air; ///< Null: other vehicles do not hear it.
   messages::road_actor road;
   messages::recorder_actor recorder;

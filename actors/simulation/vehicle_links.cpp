@@ -6,6 +6,7 @@
 #include "actors/runtime/time.hpp"
 #include "base/protocol.hpp"
 
+#include <caf/exit_reason.hpp>
 #include <caf/typed_event_based_actor.hpp>
 
 #include <utility>
@@ -38,15 +39,34 @@ void vehicle_links::report(const driven_car& car) {
 
 void vehicle_links::leave_road() {
   self_->send(setup_.road, setup_.car.station.value());
+  if (setup_.rider)
+    self_->send_exit(setup_.rider, caf::exit_reason::user_shutdown);
 }
 
-void vehicle_links::broadcast(
-    const messages::cam& own, const world::perception& seen, point from,
+void vehicle_links::publish(
+    const messages::ego_state& own, const world::perception& seen, point from,
     const messages::onboard_requester_actor& requester) {
+  self_->send(requester, own);
+  if (setup_.rider)
+    self_->send(setup_.rider, own);
   if (!due_)
     return;
-  send(due_->awareness(own), from, requester);
-  send(due_->perceived(own, seen), from, requester);
+  send(due_->awareness(own.own), from, requester);
+  send(due_->perceived(own.own, seen), from, requester);
+}
+
+// Its sensor is in the middle of its body.
+void vehicle_links::show(const world::perception& seen, const driven_car& car) {
+  if (!setup_.rider)
+    return;
+  const auto box = world::body(car.report().state, setup_.car.car);
+  self_->send(setup_.rider,
+              messages::roadside_detections{seen.at,
+                                            seen.objects,
+                                            0,
+                                            {box.centre, box.heading_rad,
+                                             setup_.sensor.range_m,
+                                             setup_.sensor.field_of_view_deg}});
 }
 
 void vehicle_links::send(const std::optional<messages::its_pdu>& message,
@@ -55,11 +75,12 @@ void vehicle_links::send(const std::optional<messages::its_pdu>& message,
   if (!message || message->octets.empty())
     return;
   record_on_air(self_, setup_.recorder, *message);
+  if (setup_.rider) // which has nobody to offer anything to
+    self_->send(setup_.rider, *message, messages::requester_actor{});
   if (!setup_.antennas)
     return;
   for (std::size_t k = 0; k < setup_.antennas->size(); ++k) {
-    const auto& antenna = (*setup_.antennas)[k];
-    if (distance_m(from, antenna.position) <= antenna.range_m)
+    if ((*setup_.antennas)[k].hears(setup_.car.station, from))
       self_->send(link(k), *message, messages::requester_actor{requester});
   }
 }

@@ -27,15 +27,18 @@ public:
   void ask_for_place(const driven_car& car);
   /// Road and agent are told where the vehicle is.
   void report(const driven_car& car);
-  /// The road has one vehicle less.
+  /// The road has one vehicle less, and the providers one that rode with it.
   void leave_road();
 
-  /// Tells all providers that are near enough of the vehicle and of what it
-  /// saw last, as far as that is due.
-  /// @param requester  Who gets what they answer.
-  void broadcast(const messages::cam& own, const world::perception& seen,
-                 point from,
-                 const messages::onboard_requester_actor& requester);
+  /// Tells its requester and the provider that rides with it where the vehicle
+  /// is, and all providers that are near enough of it and of what it saw last,
+  /// as far as that is due.
+  /// @param requester  Who gets what they answer; not null.
+  void publish(const messages::ego_state& own, const world::perception& seen,
+               point from, const messages::onboard_requester_actor& requester);
+
+  /// Shows the provider that rides with it what the vehicle sees.
+  void show(const world::perception& seen, const driven_car& car);
 
   /// Tells providers and vehicles near.
   void say(const messages::its_pdu& word, point from,

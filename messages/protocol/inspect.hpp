@@ -9,8 +9,10 @@
 
 #include <bit>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <type_traits>
 
@@ -51,6 +53,13 @@ bool inspect_value(Inspector& f, strong_id<Tag, Rep>& x) {
   return f.apply(get, set);
 }
 
+/// What travels as a text of its own making.
+template <class T>
+concept packs_itself = requires(T& x, const std::string& text) {
+  { x.packed() } -> std::same_as<std::string>;
+  { x.unpack(text) } -> std::same_as<bool>;
+};
+
 /// Hands the fields of a struct to one of CAF's inspectors.
 template <class Inspector>
 class field_inspector {
@@ -70,6 +79,14 @@ public:
       x = std::bit_cast<double>(bits);
       return std::isfinite(x);
     };
+    ok_ = ok_ && f_.field({name.data(), name.size()}, get, set)(f_);
+  }
+
+  /// What packs itself into a text, and refuses others.
+  template <packs_itself T>
+  void operator()(std::string_view name, T& x) {
+    auto get = [&x] { return x.packed(); };
+    auto set = [&x](const std::string& text) { return x.unpack(text); };
     ok_ = ok_ && f_.field({name.data(), name.size()}, get, set)(f_);
   }
 

@@ -15,7 +15,7 @@ namespace sofof::messages {
 
 /// Whose messages these are. Raised whenever their meaning changes; the types
 /// themselves are compared by a fingerprint of all their names.
-inline constexpr std::uint32_t remote_protocol = 10;
+inline constexpr std::uint32_t remote_protocol = 11;
 
 /// @returns whether a stranger's Unix time can be reckoned with.
 constexpr bool is_time_of_day(std::int64_t unix_ms) {

@@ -61,6 +61,27 @@ void visit_fields(auto& v, cam& x) {
   v("width_m", x.width_m);
 }
 
+/// How a provider that rides with a vehicle moves when it makes an offer.
+struct provider_motion {
+  point velocity_mps; ///< East and north.
+  double reach_m = 0; ///< It serves who is nearer than this.
+
+  friend bool operator==(const provider_motion&,
+                         const provider_motion&) = default;
+};
+
+/// When an offer was made, and how its provider moved then. Both may be
+/// missing; they travel as one text, so that a provider that stands says of its
+/// motion nothing at all.
+struct offer_stamp {
+  std::optional<time_point>& created;
+  std::optional<provider_motion>& moves;
+
+  std::string packed() const;
+  /// @returns whether it was one; else nothing has changed.
+  bool unpack(const std::string& text);
+};
+
 /// A provider has seen a station in its area and offers its services.
 struct service_offer {
   provider_id provider = 0;
@@ -73,6 +94,9 @@ struct service_offer {
   duration computing{}; ///< Mean time of a result of unit demand, > 0 if any.
   /// When it was made: tells how good the way is; none if clocks disagree.
   std::optional<time_point> created{};
+  /// Of a provider that rides with a vehicle; such a one makes offers of no
+  /// service, too: they tell where it is.
+  std::optional<provider_motion> moves{};
 };
 
 void visit_fields(auto& v, service_offer& x) {
@@ -82,7 +106,8 @@ void visit_fields(auto& v, service_offer& x) {
   v("utilisation", x.utilisation);
   v("workers", x.workers);
   v("computing", x.computing);
-  v("created", x.created);
+  offer_stamp stamp{x.created, x.moves};
+  v("created", stamp);
 }
 
 /// What a provider believes to run for a station, told every

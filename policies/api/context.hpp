@@ -45,6 +45,9 @@ struct provider_view {
   link_quality link{};
   /// Of a cycle that is planned there, for the vehicle.
   world::cycle_cost cost{};
+  point velocity_mps{}; ///< East and north; 0: it stands.
+  /// Of one that rides with a vehicle: it serves who is nearer, m.
+  std::optional<double> reach_m{};
 };
 
 /// What a cycle at this provider costs less than one on board, without unit: <
@@ -195,6 +198,9 @@ struct central_context {
   provider_id self = 0;       ///< The provider.
   random_stream noise{0, ""}; ///< Of its decisions.
   std::uint64_t number = 0;   ///< Of this one: the counter of `noise`.
+  /// East and north: `area` is where it is now, and moves like this; 0: it
+  /// stays.
+  point area_velocity_mps{};
 };
 
 /// LODM: local offloading decision making, in the vehicle.

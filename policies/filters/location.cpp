@@ -3,6 +3,8 @@
 
 #include "policies/entry.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace sofof::policies {
@@ -10,6 +12,24 @@ namespace sofof::policies {
 namespace {
 
 constexpr double slowest_mps = 0.1;
+
+bool stands(point velocity_mps) {
+  return !(std::hypot(velocity_mps.x_m, velocity_mps.y_m) >= slowest_mps);
+}
+
+/// @returns how long a point stays in an area that moves.
+double time_until_left_s(point where, const polygon& area, point velocity_mps,
+                         double enough_s) {
+  const auto step_s = 1 / std::hypot(velocity_mps.x_m, velocity_mps.y_m);
+  double passed_s = 0;
+  for (std::size_t k = 1; !(passed_s > enough_s); ++k) {
+    const auto next_s = static_cast<double>(k) * step_s;
+    if (!area.contains(where - next_s * velocity_mps))
+      break;
+    passed_s = next_s;
+  }
+  return passed_s;
+}
 
 } // namespace
 
@@ -29,6 +49,43 @@ std::optional<double> time_in_area_s(std::span<const point> route,
   return passed_m / speed_mps;
 }
 
+std::optional<double> time_in_area_s(std::span<const point> route,
+                                     const polygon& area, point velocity_mps,
+                                     double speed_mps, double enough_s) {
+  if (stands(velocity_mps))
+    return time_in_area_s(route, area, speed_mps, enough_s);
+  if (route.empty() || !area.contains(route.front()))
+    return std::nullopt;
+  if (speed_mps < slowest_mps)
+    return time_until_left_s(route.front(), area, velocity_mps, enough_s);
+  double passed_s = 0;
+  for (std::size_t i = 1; i < route.size() && !(passed_s > enough_s); ++i) {
+    const auto there_s =
+        passed_s + distance_m(route[i - 1], route[i]) / speed_mps;
+    if (!area.contains(route[i] - there_s * velocity_mps))
+      break;
+    passed_s = there_s;
+  }
+  return passed_s;
+}
+
+double distance_in_disc_m(std::span<const point> path, point centre,
+                          point velocity_mps, double speed_mps, double radius_m,
+                          double enough_m) {
+  if (stands(velocity_mps))
+    return distance_in_disc_m(path, centre, radius_m, enough_m);
+  const auto drives_mps = std::max(speed_mps, slowest_mps);
+  double passed_m = 0;
+  for (std::size_t i = 1; i < path.size() && passed_m <= enough_m; ++i) {
+    const auto there_m = passed_m + distance_m(path[i - 1], path[i]);
+    const auto middle = centre + (there_m / drives_mps) * velocity_mps;
+    if (!(distance_m(path[i], middle) < radius_m)) // nor what is no number
+      break;
+    passed_m = there_m;
+  }
+  return passed_m;
+}
+
 double distance_in_disc_m(std::span<const point> path, point centre,
                           double radius_m, double enough_m) {
   double passed_m = 0;
@@ -42,8 +99,10 @@ double distance_in_disc_m(std::span<const point> path, point centre,
 
 reason near_provider::objection(const local_context& context,
                                 const provider_view& provider) const {
-  const auto passed_m =
-      distance_in_disc_m(context.path, provider.at, radius_m_, min_distance_m_);
+  const auto passed_m = distance_in_disc_m(
+      context.path, provider.at, provider.velocity_mps, context.speed_mps,
+      std::min(radius_m_, provider.reach_m.value_or(radius_m_)),
+      min_distance_m_);
   if (passed_m > min_distance_m_)
     return {};
   return {"path leaves r_off or ends before d_min", passed_m, min_distance_m_,
@@ -74,7 +133,8 @@ reason stays_in_area::objection(const central_context& context,
     return "route is not on the map";
   const auto enough_s = to_seconds(min_time_);
   const auto time_s =
-      time_in_area_s(request.route, context.area, request.speed_mps, enough_s);
+      time_in_area_s(request.route, context.area, context.area_velocity_mps,
+                     request.speed_mps, enough_s);
   if (!time_s)
     return "outside the area";
   if (!(*time_s >= enough_s)) // nor what is no number

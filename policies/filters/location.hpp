@@ -26,6 +26,17 @@ time_in_area_s(std::span<const point> route, const polygon& area,
                double speed_mps,
                double enough_s = std::numeric_limits<double>::infinity());
 
+/// The same in an area that moves at constant velocity: each waypoint counts
+/// by where the area is when the vehicle comes there. Who stands is left by the
+/// area some time, to within a metre of its way.
+/// @param velocity_mps  Of the area, east and north; below 0.1 it counts as
+///                      standing.
+/// @returns as above; infinity when both stand.
+std::optional<double>
+time_in_area_s(std::span<const point> route, const polygon& area,
+               point velocity_mps, double speed_mps,
+               double enough_s = std::numeric_limits<double>::infinity());
+
 /// Way that a path covers near a point before it leaves the disc round it: the
 /// sum of its steps to waypoints nearer than the radius, up to the first that
 /// is not. Where the path begins does not matter.
@@ -35,6 +46,16 @@ time_in_area_s(std::span<const point> route, const polygon& area,
 /// Source: Dehler & Buchholz 2025, algorithm 1.
 double distance_in_disc_m(std::span<const point> path, point centre,
                           double radius_m, double enough_m);
+
+/// The same near a point that moves at constant velocity, for a vehicle that
+/// keeps its speed: each waypoint counts by where the point is when the vehicle
+/// comes there.
+/// @param velocity_mps  Of the point, east and north; below 0.1 it counts as
+///                      standing.
+/// @param speed_mps     Of the vehicle; below 0.1 counts as 0.1.
+double distance_in_disc_m(std::span<const point> path, point centre,
+                          point velocity_mps, double speed_mps, double radius_m,
+                          double enough_m);
 
 /// A provider may be asked as soon as the planned path stays long enough
 /// within r_off of it.

@@ -26,7 +26,9 @@ inline constexpr std::size_t arity<messages::session_id> = 4;
 template <>
 inline constexpr std::size_t arity<messages::cam> = 9;
 template <>
-inline constexpr std::size_t arity<messages::service_offer> = 7;
+inline constexpr std::size_t arity<messages::provider_motion> = 2;
+template <>
+inline constexpr std::size_t arity<messages::service_offer> = 8;
 template <>
 inline constexpr std::size_t arity<messages::session_digest> = 4;
 template <>

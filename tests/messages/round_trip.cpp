@@ -135,6 +135,36 @@ TEST_CASE("a message that claims to hold more than it does is refused") {
   CHECK(!load<service_offer>(bytes));
 }
 
+TEST_CASE("an offer of a provider that stands takes no octet for its motion") {
+  service_offer offer{1, {2, 3}, {}};
+  const auto bare = octets_of(offer);
+  offer.created = time_point{std::chrono::seconds{9}};
+  CHECK(octets_of(offer) == bare + 8);
+  offer.moves = provider_motion{{1.5, -2}, 80};
+  CHECK(octets_of(offer) == bare + 8 + 24);
+  CHECK(save(offer).size() == octets_of(offer));
+  const auto arrived = load<service_offer>(save(offer));
+  REQUIRE(arrived);
+  CHECK(arrived->created == offer.created);
+  CHECK(arrived->moves == offer.moves);
+}
+
+TEST_CASE("a motion that is no number, or too long, is refused") {
+  std::optional<time_point> created;
+  std::optional<provider_motion> moves;
+  offer_stamp stamp{created, moves};
+  for (std::size_t size = 0; size < 40; ++size) {
+    const auto is_one = size == 0 || size == 8 || size == 24 || size == 32;
+    CHECK(stamp.unpack(std::string(size, '\0')) == is_one);
+  }
+  moves = provider_motion{{0, std::numeric_limits<double>::infinity()}, 80};
+  const auto text = stamp.packed();
+  moves.reset();
+  CHECK_FALSE(stamp.unpack(text));
+  CHECK_FALSE(moves);
+  CHECK_FALSE(stamp.unpack(std::string(8, '\x7f'))); // in 292 years
+}
+
 TEST_CASE_TEMPLATE("an unknown value of an enumeration is refused", T,
                    end_reason, side, qos_breach, lifecycle_step,
                    stream_id::what) {

@@ -105,7 +105,7 @@ public:
     const auto drive = office_->advise(now, station_);
     const messages::suggestion what{
         provider_.station,
-        provider_.position,
+        provider_.place(),
         station_,
         {static_cast<std::uint16_t>(input.session.counter), ++update_}};
     const auto rest = told_rest(drive, now);

@@ -50,14 +50,19 @@ private:
     std::uint32_t session = 0;
     std::optional<messages::cam> own; // that the vehicle has told last
     bool others_are_known = false;
+    point place; // where the provider is
   };
 
   moment look(time_point now, const messages::service_input& input) {
     auto word = others_.on_input(input.what, now);
     if (has_begun_)
       others_.look();
-    return {now, std::move(word), input.session.counter,
-            perceived_->told_by(station_), others_.are_known()};
+    return {now,
+            std::move(word),
+            input.session.counter,
+            perceived_->told_by(station_),
+            others_.are_known(),
+            provider_.place()};
   }
 
   offloading::service_output plan(const moment& at) {
@@ -83,7 +88,7 @@ private:
     if (!has_begun_ && (report.emergency || !at.others_are_known))
       return {}; // until it would drive no worse than the vehicle itself
     has_begun_ = true;
-    auto words = writer_.write(cycle_->plan(), at.session);
+    auto words = writer_.write(cycle_->plan(), at.session, at.place);
     if (words.empty())
       return {};
     return {std::move(words), messages::payload::of(report)};
@@ -176,7 +181,7 @@ private:
   double from_m_ = 0;                          // of the last word
   double stop_at_m_ = 0; // the end of the vehicle's authority
   agreed_word agreed_{world_};
-  suggestion_writer writer_{world_->where, provider_, station_};
+  suggestion_writer writer_{world_->where, provider_.station, station_};
   bool has_begun_ = false; // to suggest plans
 };
 

@@ -158,7 +158,7 @@ public:
 
   messages::payload termination_message(const messages::service_end& end,
                                         time_point now) override {
-    const messages::suggestion what{provider_.station, provider_.position,
+    const messages::suggestion what{provider_.station, provider_.place(),
                                     end.session.station,
                                     name_of_maneuver(end.session)};
     return messages::payload::of(messages::encoded(messages::make_termination(

@@ -10,9 +10,9 @@
 namespace sofof::actors {
 
 messages::payload suggestion_writer::write(const world::trajectory& plan,
-                                           std::uint32_t session) {
+                                           std::uint32_t session, point place) {
   const messages::suggestion what{
-      from_, position_, to_, {static_cast<std::uint16_t>(session), ++update_}};
+      from_, place, to_, {static_cast<std::uint16_t>(session), ++update_}};
   // Room that is used again.
   static thread_local messages::etsi::mcm said;
   static thread_local std::vector<messages::maneuver_waypoint> waypoints;

@@ -38,8 +38,12 @@ double part(double value, double whole) {
 } // namespace
 
 double time_left_s(const offloading_view& view) {
-  const auto way_m = distance_in_disc_m(view.context.path, view.provider.at,
-                                        view.radius_m, infinity);
+  const auto& provider = view.provider;
+  const auto way_m = distance_in_disc_m(
+      view.context.path, provider.at, provider.velocity_mps,
+      view.context.speed_mps,
+      std::min(view.radius_m, provider.reach_m.value_or(view.radius_m)),
+      infinity);
   if (way_m <= 0)
     return 0;
   return view.context.speed_mps < standing_mps ? infinity
