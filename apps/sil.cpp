@@ -5,6 +5,7 @@
 #include "apps/program.hpp"
 #include "apps/scenario_arguments.hpp"
 #include "apps/signals.hpp"
+#include "base/input_error.hpp"
 #include "recording/results_folder.hpp"
 
 #include <filesystem>
@@ -12,6 +13,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace sofof::apps {
 
@@ -35,6 +38,13 @@ std::vector<std::string> words_of(const scenario_arguments& what) {
 
 int run(const sil_arguments& args) {
   const auto s = args.what.load();
+  std::vector<std::string> providers;
+  for (const auto& one : s.providers)
+    if (!one.carrier) // one that rides is part of its vehicle's process
+      providers.push_back(one.name);
+  if (providers.empty())
+    throw input_error("all providers of the scenario ride with vehicles, so "
+                      "that none can be a process of its own; use sofof run");
   const auto given = args.out.empty()
                          ? std::nullopt
                          : std::optional<std::filesystem::path>{args.out};
@@ -43,7 +53,7 @@ int run(const sil_arguments& args) {
       .scenario = find_scenario(args.what.file),
       .changes = words_of(args.what),
       .for_cars = {},
-      .providers = {},
+      .providers = std::move(providers),
       .directly = args.directly,
       .out = recording::make_results_folder(given, s.name + "-sil", s.seed,
                                             args.force, args.what.set)};
@@ -51,8 +61,6 @@ int run(const sil_arguments& args) {
     what.for_cars = {"--duration", args.what.length};
   if (args.quiet)
     what.for_cars.emplace_back("--quiet");
-  for (const auto& one : s.providers)
-    what.providers.push_back(one.name);
   catch_signals();
   const auto code = run_sil(what, interrupted, std::cout);
   std::cout << what.out.string() << '\n';

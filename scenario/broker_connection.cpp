@@ -93,10 +93,9 @@ broker_connection::broker_connection(
                                   "no effect; use amqps://",
                                   print_broker(url)));
   if (!what_.publisher.empty() && !actors::wire::is_publisher(what_.publisher))
-    throw input_error(
-        fmt::format("--c-roads '{}' is no publisher: two envelopes "
-                    "of a country and digits, like DE12345",
-                    what_.publisher));
+    throw input_error(fmt::format("--c-roads '{}' is no publisher: two letters "
+                                  "of a country and digits, like DE12345",
+                                  what_.publisher));
   if (!url.secured && !url.user.empty())
     throw input_error("--broker: a password is sent over amqps:// only");
   if (!keys_)

@@ -197,7 +197,7 @@ run_outcome drive_by_broker(const scenario_definition& s,
         -> std::variant<messages::acceptor_actor, std::string> {
       if (auto why = connection->why_not())
         return fmt::format("the broker cannot be reached: {}", *why);
-      return side->way_to(name);
+      return side->proxy_for(name);
     };
     here.remotes.push_back(
         {place, [&time = *time, setup](const auto& recorder) {

@@ -21,7 +21,7 @@ namespace sofof::actors {
 using brokered_provider_actor =
     messages::acceptor_actor::extend_with<messages::handshake_actor>::
         extend_with<messages::provider_endpoint_actor>::extend<
-            // The provider's answers: an challenge, a welcome and its station,
+            // The provider's answers: a challenge, a welcome and its station,
             // or a refusal.
             messages::reacts_to<std::uint32_t, std::uint64_t, std::string>,
             messages::reacts_to<messages::peer_welcome, station_id::rep>,

@@ -13,7 +13,7 @@ namespace sofof::actors {
 
 namespace {
 
-/// Tells an open proxy or its endpoint what a provider has sent.
+/// Tells a connected proxy or its endpoint what a provider has sent.
 class delivery_to_vehicles {
 public:
   /// @param proxy  Lives.
@@ -68,7 +68,7 @@ vehicle_side::vehicle_side(caf::actor_system& sys, vehicle_side_setup setup)
     : shared_{std::make_shared<shared>(sys, std::move(setup))} {}
 
 messages::acceptor_actor
-vehicle_side::way_to(const std::string& provider) const {
+vehicle_side::proxy_for(const std::string& provider) const {
   return spawn_brokered_provider(shared_, shared_->setup.draw_link(), provider);
 }
 

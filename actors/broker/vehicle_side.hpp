@@ -37,7 +37,7 @@ public:
 
   /// @returns a new proxy of the provider of this name. It ends with whoever
   /// asks it first, and with `lose`.
-  messages::acceptor_actor way_to(const std::string& provider) const;
+  messages::acceptor_actor proxy_for(const std::string& provider) const;
 
   /// Tells everybody what a station of this process has to say; once, whoever
   /// else has it sent.

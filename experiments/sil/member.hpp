@@ -26,6 +26,8 @@ public:
 
   const std::string& name() const { return name_; }
   int socket() const { return child_.socket(); }
+  /// @returns whether nothing will come from it any more.
+  bool is_silent() const { return is_silent_; }
 
   /// Reads what it has said, without waiting.
   void read();
@@ -54,7 +56,7 @@ private:
   std::function<void(std::string_view)> on_line_;
   std::string line_;
   std::vector<std::string> lines_;
-  bool is_silent_ = false; // nothing will come any more
+  bool is_silent_ = false;
 };
 
 } // namespace sofof::experiments

@@ -1,7 +1,6 @@
 // Starts processes in the order in which they need each other.
 #include "experiments/sil/sil.hpp"
 
-#include "base/input_error.hpp"
 #include "experiments/sil/member.hpp"
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include <memory>
 #include <ostream>
 #include <poll.h>
+#include <stdexcept>
 #include <utility>
 
 namespace sofof::experiments {
@@ -18,6 +18,13 @@ namespace sofof::experiments {
 namespace {
 
 constexpr std::chrono::seconds longest_start{20}, longest_end{10};
+
+constexpr int interrupted_exit = 130;
+
+/// A process that others need has not begun.
+struct not_ready : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
 using words = std::vector<std::string>;
 
@@ -34,14 +41,22 @@ public:
       : what_{what}, interrupted_{interrupted}, console_{console} {}
 
   int run() {
-    if (!what_.directly)
-      start_broker();
-    for (const auto& name : what_.providers)
-      start_provider(name);
-    start_cars();
-    const auto cars = drive();
+    auto code = interrupted_exit;
+    try {
+      if (!what_.directly)
+        start_broker();
+      for (const auto& name : what_.providers)
+        start_provider(name);
+      start_cars();
+      code = drive();
+    } catch (const not_ready& problem) {
+      if (!interrupted_) {
+        console_ << problem.what() << std::endl;
+        code = 1;
+      }
+    }
     end_servers();
-    return cars != 0 ? cars : exit_code_;
+    return code != 0 ? code : exit_code_;
   }
 
 private:
@@ -95,31 +110,27 @@ private:
         return *found;
       const auto end = one.poll_end();
       if (end || interrupted_ || child::clock::now() > last)
-        throw input_error(
+        throw not_ready(
             fmt::format("{} {}{}{}", one.name(),
-                        end            ? end->in_words()
-                        : interrupted_ ? "was interrupted"
-                                       : "was not ready within 20 s",
+                        end ? end->in_words() : "was not ready within 20 s",
                         one.last_line().empty() ? "" : ": ", one.last_line()));
-      rest({one.socket()});
+      rest({&one});
     }
   }
 
   /// Waits a little, or until one of them says something.
-  static void rest(const std::vector<int>& sockets) {
+  static void rest(const std::vector<const member*>& members) {
     constexpr int longest_ms = 50;
     std::vector<pollfd> all;
-    for (const auto socket : sockets)
-      all.push_back({socket, POLLIN, 0});
+    for (const auto* one : members)
+      if (!one->is_silent())
+        all.push_back({one->socket(), POLLIN, 0});
     poll(all.data(), all.size(), longest_ms);
   }
 
   /// @returns the exit code of the cars.
   int drive() {
-    bool is_told = false;
-    while (!cars_->poll_end()) {
-      if (interrupted_ && !std::exchange(is_told, true))
-        cars_->interrupt();
+    while (!cars_->poll_end() && !interrupted_) {
       cars_->read();
       std::erase_if(servers_, [this](const auto& one) {
         one->read();
@@ -128,11 +139,13 @@ private:
           complain(*one, *end);
         return end.has_value();
       });
-      std::vector<int> sockets{cars_->socket()};
+      std::vector<const member*> all{cars_.get()};
       for (const auto& one : servers_)
-        sockets.push_back(one->socket());
-      rest(sockets);
+        all.push_back(one.get());
+      rest(all);
     }
+    if (interrupted_)
+      cars_->interrupt();
     const auto end = cars_->wait_for_end(longest_end);
     if (end.signal == 0)
       return end.code;

@@ -26,8 +26,9 @@ struct sil_options {
 /// else has. Each has a folder of its results, `cars` that of the cars, and a
 /// file of what it said.
 /// @param console  Gets what the cars say, and what goes wrong with others.
-/// @returns the exit code: that of the cars, or 1 when another process ended
-/// too early or not in good order.
+/// @returns the exit code: that of the cars, 1 when another process did not
+/// start, ended too early or not in good order, 130 when it was interrupted
+/// before the cars drove.
 int run_sil(const sil_options& what, const std::atomic<bool>& interrupted,
             std::ostream& console);
 

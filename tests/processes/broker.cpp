@@ -140,6 +140,10 @@ TEST_CASE("one command runs broker, provider and cars, and ends them all") {
   CHECK(again.code == 2);
   CHECK(contains(again.err, "loop"));
 
+  const auto convoy = at.run_sofof({"sil", "config/convoy.toml"});
+  CHECK(convoy.code == 2);
+  CHECK(contains(convoy.err, "ride with vehicles"));
+
   // What it measured is a channel for other runs.
   CHECK(at.run_sofof({"convert", "loop/cars", "-o", "own.latencies.csv"}).code
         == 0);
@@ -167,6 +171,9 @@ TEST_CASE("what a broker's URL and the keys lack is said before anything "
   CHECK(contains(complaint({"--set", "network.transport=amqp"}),
                  "name the broker with --broker"));
   CHECK(contains(complaint({}), "nobody is named who plans"));
+  CHECK(
+      contains(complaint({"--broker", "amqp://127.0.0.1", "--c-roads", "Ulm"}),
+               "two letters of a country and digits, like DE12345"));
   CHECK(contains(complaint({"--broker", "amqp://127.0.0.1", "--provider",
                             "127.0.0.1:4711"}),
                  "leave --provider and --discover away"));
