@@ -67,19 +67,24 @@ bool may_be_service(std::string_view name) {
 /// Lists a service by its name; one with a `command` is a program.
 void visit_service(option_visitor& s, actors::service_type_ptr& service) {
   constexpr std::string_view program = "program";
-  if (!s.has("command", service && service->is_program()))
+  if (!s.has("command", service && service->is_program())) {
+    if (service && service->is_program())
+      service = nullptr;
     return visit_choice(s, service, actors::make_service_type,
                         "kind of service", actors::service_type_names());
+  }
   if (!service || !service->is_program())
     service = actors::make_service_type(program);
   std::string name{service->name()};
   s.field("name", name);
   if (name != program && actors::make_service_type(name))
-    s.refuse("name", fmt::format("is a function of SOFOF's own; name the "
-                                 "program \"my_{}\", or leave out `command`.",
-                                 name));
+    return s.refuse("name",
+                    fmt::format("is a function of SOFOF's own; name the "
+                                "program \"my_{}\", or leave out `command`.",
+                                name));
   if (!may_be_service(name))
-    s.refuse("name", "must have 1 to 31 of the characters a-z, 0-9 and _.");
+    return s.refuse("name",
+                    "must have 1 to 31 of the characters a-z, 0-9 and _.");
   service->be_called(name);
   service->visit_options(s);
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace sofof {
@@ -17,7 +18,8 @@ using option_list = std::function<void(option_visitor&)>;
 using text_values = std::map<std::string, std::string, std::less<>>;
 
 constexpr std::string_view name_key = "name";
-constexpr std::string_view no_word = "?"; ///< That nothing is called.
+constexpr std::string_view no_word = "?";       ///< That nothing is called.
+constexpr std::string_view any_word = "my_own"; ///< What something may be.
 
 /// What a walk answers when it is asked whether an option is there.
 struct presence {
@@ -118,10 +120,13 @@ public:
   }
   /// Only of texts: what else is wrong with a value is not to be known here.
   void refuse(std::string_view key, const std::string& why) override {
+    refuses_name_ |= key == name_key;
     auto* option = find_option(found_.options, key);
     if (option && option->words.empty() && texts_.contains(key))
       option->words = known_words(why);
   }
+
+  bool refuses_name() const { return refuses_name_; }
 
 private:
   /// @returns a new option; null for one that was seen before.
@@ -157,6 +162,7 @@ private:
   presence there_;
   const text_values& texts_;
   text_values instead_;
+  bool refuses_name_ = false;
 };
 
 /// Walks with every presence of options that there is until now.
@@ -265,6 +271,23 @@ bool same_options(const std::vector<described_option>& a,
   });
 }
 
+/// @returns the options of what may be called anything while an option is
+/// there; nothing if names are known even so.
+std::optional<findings> with_any_name(const option_list& list,
+                                      const std::string& key) {
+  const text_values free{{std::string{name_key}, std::string{any_word}}};
+  findings found;
+  walk one{found, {presence::rule::one, key}, free};
+  list(one);
+  if (one.refuses_name() || !find_option(found.options, key))
+    return std::nullopt;
+  found = explore(list, free);
+  for (auto& option : found.options)
+    if (option.key == name_key)
+      option.words.clear();
+  return found;
+}
+
 } // namespace
 
 const described_option* option_table::find(std::string_view key) const {
@@ -280,7 +303,7 @@ option_table describe_options(const option_list& list) {
       std::ranges::find(whole.options, name_key, &described_option::key);
   option_table all;
   if (name == whole.options.end() || name->words.empty()) {
-    all.variants.push_back({{}, with_former_places(whole)});
+    all.variants.push_back({{}, {}, with_former_places(whole)});
     return all;
   }
   for (const auto& word : name->words) {
@@ -293,10 +316,13 @@ option_table describe_options(const option_list& list) {
           return same_options(variant.options, options);
         });
     if (alike == all.variants.end())
-      all.variants.push_back({{word}, std::move(options)});
+      all.variants.push_back({{word}, {}, std::move(options)});
     else
       alike->names.push_back(word);
   }
+  for (const auto& key : whole.optional)
+    if (auto found = with_any_name(list, key))
+      all.variants.push_back({{}, key, with_former_places(*found)});
   const auto defaults = whole.defaults;
   walk as_it_was{whole, {}, defaults};
   list(as_it_was);

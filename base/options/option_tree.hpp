@@ -44,6 +44,7 @@ struct described_option {
 struct option_table {
   struct variant {
     std::vector<std::string> names; ///< Each of which has these; none: any.
+    std::string only_with;          ///< A key that must be there; often none.
     std::vector<described_option> options;
   };
   std::vector<variant> variants; ///< At least one.

@@ -76,6 +76,8 @@ private:
         name = &option;
     }
     auto made = table_of(std::move(properties));
+    if (!variant.only_with.empty())
+      made["required"] = ordered_json::array({"name", variant.only_with});
     if (variant.names.empty())
       return made;
     assert(name);

@@ -205,7 +205,14 @@ std::string scenario_meaning(std::span<const std::string> path,
   auto text = page.of(path, names);
   // A provider has tables as the scenario has them.
   if (text.empty() && path.size() > 2 && path[0] == "provider")
-    return page.of(path.subspan(1), names);
+    text = page.of(path.subspan(1), names);
+  if (text.empty() && path.size() > 3 && path[1] == "provide")
+    text = page.of(path.subspan(2), names);
+  // Programs have a page of their own.
+  static const documented_options programs{programs_page};
+  for (const auto last : {2U, 1U})
+    if (text.empty() && path.size() >= last)
+      text = programs.of(path.last(last), names);
   return text;
 }
 

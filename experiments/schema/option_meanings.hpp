@@ -11,6 +11,7 @@ namespace sofof::experiments::schema {
 
 /// All of docs/scenarios.md.
 extern const std::string_view scenarios_page;
+extern const std::string_view programs_page;
 
 /// The tables of a page in Markdown whose rows begin with names of options.
 class documented_options {
