@@ -38,3 +38,18 @@ TEST_CASE("a scenario of vehicles that was edited is not written over") {
   CHECK(contains(end.err, "t_traffic.toml is there already"));
   CHECK(at.inventory() == before);
 }
+
+TEST_CASE("a picture of a map overwrites neither the map nor other files") {
+  const workplace at;
+  const auto before = at.inventory();
+  const std::string map = "config/maps/t_junction.toml";
+  const auto end = at.run_sofof({"map", map, "-o", map});
+  CHECK(end.code == 2);
+  CHECK(contains(end.err, "choose a name that ends with .svg."));
+  CHECK(at.inventory() == before);
+  std::filesystem::create_symlink(at / map, at / "link.svg");
+  const auto linked = at.run_sofof({"map", map, "-o", "link.svg"});
+  CHECK(linked.code == 2);
+  CHECK(contains(linked.err, "is what the picture is drawn of"));
+  CHECK(at.run_sofof({"map", map, "-o", "t.svg"}).code == 0);
+}
