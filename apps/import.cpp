@@ -5,6 +5,8 @@
 #include "base/files/output_file.hpp"
 #include "base/input_error.hpp"
 #include "base/options/toml_file.hpp"
+#include "base/options/toml_text.hpp"
+#include "scenario/load.hpp"
 #include "scenario/map_file.hpp"
 
 #include <fmt/format.h>
@@ -15,6 +17,9 @@
 #include <memory>
 #include <numeric>
 #include <string>
+#include <system_error>
+#include <unistd.h>
+#include <vector>
 
 namespace sofof::apps {
 
@@ -50,6 +55,63 @@ void tell(const maps::imported_map& map, const world::streets& made,
     std::fputs(fmt::format("sofof: {}\n", warning).c_str(), stderr);
 }
 
+void refuse_longer(const std::string& text, const std::string& source,
+                   std::string_view as) {
+  if (text.size() > longest_input)
+    throw input_error{fmt::format("{}: as {} it would have {} MB, more than "
+                                  "{}; cut a part out of it first (netconvert "
+                                  "--keep-edges.in-boundary).",
+                                  source, as, text.size() >> 20,
+                                  longest_input >> 20)};
+}
+
+/// @returns where the scenario of a map's vehicles goes.
+fs::path traffic_file(const fs::path& map) {
+  return fs::path{map}.replace_filename(map.stem().string() + "_traffic.toml");
+}
+
+/// Refuses a file that somebody has written by hand, or edited.
+void refuse_other(const fs::path& file, const std::string& text) {
+  std::error_code none;
+  if (fs::exists(file, none) && read_text(file.string()) != text)
+    throw input_error{fmt::format(
+        "{} is there already, and is another scenario; remove it, or choose "
+        "{}.",
+        file.string(), choose)};
+}
+
+/// Refuses what its source makes of `check`, with the source's name in front:
+/// the file of the mistake's place does not exist.
+template <class F>
+auto made_of(const std::string& source, F check) {
+  try {
+    return check();
+  } catch (const input_error& problem) {
+    throw input_error{fmt::format("{}: nothing is written; of it would come {}",
+                                  source, problem.what())};
+  }
+}
+
+/// Reads a scenario on a map that is not there yet: it is, under another name,
+/// for as long as this takes.
+void check_scenario(const std::string& text, const fs::path& file,
+                    const fs::path& map, const std::string& map_text) {
+  auto draft = map;
+  draft.replace_filename(
+      fmt::format(".{}.{}.toml", map.stem().string(), getpid()));
+  write_file(draft, map_text, choose);
+  std::error_code none;
+  try {
+    const std::vector overrides{"map="
+                                + quoted_toml(draft.filename().string())};
+    scenario::parse_scenario(text, file, overrides);
+  } catch (...) {
+    fs::remove(draft, none);
+    throw;
+  }
+  fs::remove(draft, none);
+}
+
 void import_map(const import_arguments& args) {
   const auto source = require_text(args.file, longest_source);
   maps::named_text routes;
@@ -67,20 +129,23 @@ void import_map(const import_arguments& args) {
   const auto name = args.name.empty() ? stem_of(args.file) : args.name;
   const auto map = maps::import({source, args.file}, name, routes);
   const auto text = maps::to_toml(map);
-  if (text.size() > longest_input)
-    throw input_error{fmt::format("{}: as a map it would have {} MB, more than "
-                                  "{}; cut a part out of it first (netconvert "
-                                  "--keep-edges.in-boundary).",
-                                  args.file, text.size() >> 20,
-                                  longest_input >> 20)};
-  const auto made = scenario::parse_map(text, args.out);
+  refuse_longer(text, args.file, "a map");
+  const auto made =
+      made_of(args.file, [&] { return scenario::parse_map(text, args.out); });
+  const auto traffic = traffic_file(out);
+  std::string vehicles;
+  if (!map.departures.empty()) {
+    vehicles = maps::to_scenario(map, out.filename().string());
+    refuse_longer(vehicles, args.routes, "a scenario");
+    output_file::check(traffic, choose);
+    refuse_other(traffic, vehicles);
+    made_of(args.routes, [&] { check_scenario(vehicles, traffic, out, text); });
+  }
   write_file(out, text, choose);
   tell(map, *made, args.out);
   if (map.departures.empty())
     return;
-  auto traffic = out;
-  traffic.replace_filename(out.stem().string() + "_traffic.toml");
-  write_file(traffic, maps::to_scenario(map, out.filename().string()), choose);
+  write_file(traffic, vehicles, choose);
   std::cout << fmt::format("{}: {} vehicles\n", traffic.string(),
                            map.departures.size());
 }

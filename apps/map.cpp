@@ -8,11 +8,15 @@
 #include "scenario/map_file.hpp"
 #include "world/vehicle/vehicle.hpp"
 
+#include <fmt/format.h>
+
 #include "maps/picture.hpp"
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace sofof::apps {
@@ -29,8 +33,22 @@ bool is_map(const std::string& file) {
   return false;
 }
 
+/// A picture is not written over what it is drawn of, nor over other files.
+void check_picture(const std::string& file, const std::filesystem::path& out) {
+  if (out.extension() != ".svg")
+    throw input_error{fmt::format("{}: a picture is an SVG file; choose a name "
+                                  "that ends with .svg.",
+                                  out.string())};
+  std::error_code none;
+  if (std::filesystem::equivalent(file, out, none))
+    throw input_error{fmt::format("{} is what the picture is drawn of; choose "
+                                  "another file with -o.",
+                                  out.string())};
+}
+
 void draw_map(const std::string& name, const std::string& out) {
   const auto file = find_scenario(name);
+  check_picture(file, out);
   world::streets_ptr world;
   maps::picture_additions more;
   if (is_map(file)) {

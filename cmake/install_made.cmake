@@ -1,6 +1,7 @@
 # Installs what the program says of itself: schemas, completion, the manual; and
 # units with the paths of this installation. It runs then, with `program`,
-# `source`, `caf_licence`, `package_version` and `maintainer` set.
+# `source`, `caf_licence`, `proton` (its package, or nothing), `package_version`
+# and `maintainer` set.
 set(root "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}")
 
 # made(FILE WORDS...): what the program prints for the words becomes FILE.
@@ -36,22 +37,25 @@ foreach(unit sofof-provide sofof-drive)
   list(APPEND CMAKE_INSTALL_MANIFEST_FILES ${units}/${unit}.service)
 endforeach()
 
-# The notices of all that is linked, as its packages have them.
+# The notices of all that is linked, as its packages have them; without one of
+# them nothing may be handed on.
 set(notices ${root}/share/doc/sofof/copyright)
 file(READ ${source}/packaging/deb/copyright text)
+# notice_of(TITLE FILE): the file, under the title, is a part of `text`.
+function(notice_of title file)
+  if(NOT EXISTS ${file})
+    message(FATAL_ERROR "The licence notice of ${title} is not at ${file}; "
+      "install the package that has it, without leaving out its documents.")
+  endif()
+  file(READ ${file} notice)
+  set(text "${text}\n\n==== ${title} ====\n\n${notice}" PARENT_SCOPE)
+endfunction()
 foreach(package libeigen3-dev nlohmann-json3-dev libcli11-dev libfmt-dev
     libtomlplusplus-dev libgeographiclib-dev libssl-dev libpcap0.8-dev
-    zlib1g-dev libqpid-proton-cpp12-dev)
-  if(EXISTS /usr/share/doc/${package}/copyright)
-    file(READ /usr/share/doc/${package}/copyright notice)
-    string(APPEND text "\n\n==== ${package} ====\n\n${notice}")
-  endif()
+    zlib1g-dev libpugixml-dev ${proton})
+  notice_of(${package} /usr/share/doc/${package}/copyright)
 endforeach()
-if(EXISTS ${caf_licence})
-  file(READ ${caf_licence} notice)
-  string(APPEND text "\n\n==== C++ Actor Framework 0.18.7, with our patch ====\n\n"
-    "${notice}")
-endif()
+notice_of("C++ Actor Framework 0.18.7, with our patch" ${caf_licence})
 file(WRITE ${notices} "${text}")
 list(APPEND CMAKE_INSTALL_MANIFEST_FILES
   ${CMAKE_INSTALL_PREFIX}/share/doc/sofof/copyright)

@@ -54,6 +54,7 @@ install(CODE "
   set(program $<TARGET_FILE:sofof_cli>)
   set(source ${PROJECT_SOURCE_DIR})
   set(caf_licence ${sofof_caf_prefix}/share/doc/caf/LICENSE)
+  set(proton ${sofof_proton_package})
   set(package_version ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})
   set(maintainer \"${CPACK_PACKAGE_CONTACT}\")
   include(${PROJECT_SOURCE_DIR}/cmake/install_made.cmake)

@@ -19,9 +19,10 @@ lane_middle middle_of(std::span<const point> left,
       std::clamp(std::ceil(std::max(left_m, right_m) / apart_m), 2.0, most);
   lane_middle made;
   auto narrowest_m = std::numeric_limits<double>::infinity();
+  line_walk along_left{left}, along_right{right};
   for (auto i = 0.0; i <= count; ++i) {
-    const auto a = point_along(left, left_m * i / count);
-    const auto b = point_along(right, right_m * i / count);
+    const auto a = along_left.to(left_m * i / count);
+    const auto b = along_right.to(right_m * i / count);
     made.centre.push_back(0.5 * (a + b));
     narrowest_m = std::min(narrowest_m, distance_m(a, b));
   }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "maps/bounds.hpp"
+#include "maps/road_limits.hpp"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,7 +40,8 @@ constexpr std::array<std::string_view, 6> closed_types{
 
 class commonroad_reader {
 public:
-  explicit commonroad_reader(const xml_file& file) : file_{file} {}
+  explicit commonroad_reader(const xml_file& file)
+      : file_{file}, limits_of_roads_{file} {}
 
   source_map read() {
     for (const auto sign : file_.root().children("trafficSign"))
@@ -68,7 +70,7 @@ private:
     }
   }
 
-  std::vector<point> bound(pugi::xml_node lanelet, const char* side) const {
+  std::vector<point> bound(pugi::xml_node lanelet, const char* side) {
     std::vector<point> points;
     for (const auto p : lanelet.child(side).children("point")) {
       const auto coordinate = [&](const char* name) {
@@ -78,6 +80,7 @@ private:
     }
     if (points.size() < 2)
       file_.refuse(lanelet, fmt::format("<{}> needs two points.", side));
+    limits_of_roads_.count_line(lanelet, points);
     return points;
   }
 
@@ -148,14 +151,17 @@ private:
           > successor_joint_m)
         ++map_.left_out["connections between lanes that do not meet"];
       else if (from != to->second
-               && std::ranges::find(next, name) == next.end())
+               && std::ranges::find(next, name) == next.end()) {
+        limits_of_roads_.count_link(successor, from, to->second);
         next.push_back(name);
+      }
     }
   }
 
   static constexpr auto closed = static_cast<std::size_t>(-1);
 
   const xml_file& file_;
+  road_limits limits_of_roads_;
   source_map map_;
   std::unordered_map<std::string_view, double> limits_; // of signs
   std::unordered_map<std::string, std::size_t> known_;  // lanelets → lanes

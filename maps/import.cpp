@@ -8,6 +8,7 @@
 #include "maps/commonroad.hpp"
 #include "maps/lane_network.hpp"
 #include "maps/lanelet2.hpp"
+#include "maps/road_limits.hpp"
 #include "maps/smooth_lanes.hpp"
 #include "maps/sumo_net.hpp"
 #include "maps/ways.hpp"
@@ -18,9 +19,6 @@
 namespace sofof::maps {
 
 namespace {
-
-/// Longer ones are mistakes.
-constexpr auto longest_lane_m = 20e3;
 
 /// @returns whether it has what only Lanelet2 writes.
 bool has_lanelets(pugi::xml_node osm) {
@@ -67,11 +65,11 @@ source_map read(const xml_file& file, const std::string& path) {
 
 void find_routes(const source_map& source, const std::vector<drawn_lane>& lanes,
                  imported_map& to) {
-  const auto next = followers_of(lanes);
+  const way_finder ways{source, lanes};
   constexpr auto none = static_cast<std::size_t>(-1);
   std::vector<std::size_t> numbers;
   for (const auto& route : source.routes) {
-    auto way = lanes_for(route, source, lanes, next);
+    auto way = ways.lanes_for(route);
     numbers.push_back(way ? to.routes.size() : none);
     if (way)
       to.routes.push_back({route.name, std::move(*way)});

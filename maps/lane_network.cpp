@@ -1,6 +1,7 @@
 // Makes a network that can be driven of what a source says.
 #include "maps/lane_network.hpp"
 
+#include "maps/road_limits.hpp"
 #include <algorithm>
 #include <numeric>
 #include <string_view>
@@ -10,7 +11,7 @@ namespace sofof::maps {
 
 namespace {
 
-constexpr auto short_m = 1.0;
+constexpr auto short_m = 1.0, least_m = 0.01;
 constexpr auto least_part_m = 50.0;
 
 class network {
@@ -49,7 +50,8 @@ public:
       while (!gone_[i] && next_[i].size() == 1) {
         const auto j = next_[i].front();
         if (j == i || !lanes_[i].inside || !lanes_[j].inside
-            || previous_[j].size() != 1)
+            || previous_[j].size() != 1
+            || lanes_[i].centre.size() + lanes_[j].centre.size() > most_points)
           break;
         lanes_[i].rank = std::max(lanes_[i].rank, lanes_[j].rank);
         append(i, j);
@@ -60,6 +62,15 @@ public:
     for (std::size_t i = 0; i < lanes_.size(); ++i)
       if (!gone_[i] && length_m(lanes_[i].centre) < short_m && join(i))
         ++map_.left_out["lanes shorter than 1 m, joined to others"];
+  }
+
+  /// They have no direction.
+  void drop_mere_points() {
+    for (std::size_t i = 0; i < lanes_.size(); ++i)
+      if (!gone_[i] && length_m(lanes_[i].centre) < least_m) {
+        drop(i);
+        ++map_.left_out["lanes shorter than 1 cm"];
+      }
   }
 
   void drop_isolated_parts() {
@@ -149,6 +160,15 @@ private:
         return k != i && links[k].size() == 1;
       });
     };
+    const auto has_room = [](const auto& around, const auto& links,
+                             std::size_t more) {
+      return std::ranges::all_of(around, [&](std::size_t k) {
+        return links[k].size() + more <= most_links + 1;
+      });
+    };
+    if (!has_room(before, next_, after.size())
+        || !has_room(after, previous_, before.size()))
+      return false;
     if (is_only(before, next_)) {
       for (const auto k : before)
         extend(k, lanes_[i]);
@@ -178,6 +198,8 @@ void tidy(source_map& map) {
   all.drop_dead_ends();
   all.join_halves();
   all.join_short_ones();
+  all.drop_mere_points();
+  all.drop_dead_ends();
   all.drop_isolated_parts();
   all.write_back();
 }

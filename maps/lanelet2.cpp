@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "maps/bounds.hpp"
+#include "maps/road_limits.hpp"
 #include <GeographicLib/UTMUPS.hpp>
 #include <algorithm>
 #include <array>
@@ -12,6 +13,7 @@
 #include <map>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 namespace sofof::maps {
@@ -40,6 +42,7 @@ std::string_view tag(pugi::xml_node of, std::string_view key) {
 /// Two lines of nodes, in driving order, left on the left.
 struct lanelet {
   std::string name;
+  pugi::xml_node at;
   std::vector<std::string_view> left, right; // ids of nodes
 };
 
@@ -47,7 +50,7 @@ using node_pair = std::pair<std::string_view, std::string_view>;
 
 class lanelet_reader {
 public:
-  explicit lanelet_reader(const xml_file& osm) : osm_{osm} {}
+  explicit lanelet_reader(const xml_file& osm) : osm_{osm}, limits_{osm} {}
 
   source_map read() {
     place_nodes();
@@ -80,7 +83,7 @@ private:
 
   void project(pugi::xml_object_range<pugi::xml_named_node_iterator> nodes) {
     auto zone = static_cast<int>(GeographicLib::UTMUPS::STANDARD);
-    world::geo_origin origin;
+    auto all_north = true;
     for (const auto node : nodes) {
       const auto lat = osm_.number(node, "lat", -79, 83);
       const auto lon = osm_.number(node, "lon", -180, 180);
@@ -89,13 +92,18 @@ private:
       try {
         GeographicLib::UTMUPS::Forward(lat, lon, zone, is_north, at.x_m, at.y_m,
                                        zone);
+        if (!is_north)
+          at.y_m -= GeographicLib::UTMUPS::UTMShift(); // goes on at the equator
       } catch (const GeographicLib::GeographicErr&) {
         osm_.refuse(node, "this node is too far from the others.");
       }
+      all_north = all_north && is_north;
       nodes_.emplace(osm_.text(node, "id"), at);
     }
-    origin.utm_zone = zone;
-    map_.origin = origin;
+    if (all_north)
+      map_.origin = world::geo_origin{.utm_zone = zone};
+    else
+      map_.left_out[southern] = 1;
   }
 
   void move_to_middle() {
@@ -114,9 +122,11 @@ private:
     }
   }
 
+  /// A bound may consist of several ways, each drawn in either direction.
   std::vector<std::string_view> line(pugi::xml_node relation,
-                                     std::string_view role) const {
+                                     std::string_view role) {
     std::vector<std::string_view> ids;
+    auto ways = 0;
     for (const auto member : relation.children("member")) {
       if (role != member.attribute("role").value())
         continue;
@@ -125,13 +135,24 @@ private:
         osm_.refuse(member, fmt::format("there is no way \"{}\".",
                                         osm_.text(member, "ref")));
       auto more = nodes_of(way->second);
-      if (!ids.empty() && more.back() == ids.back())
-        std::ranges::reverse(more); // a bound may consist of several ways
-      const auto joined = !ids.empty() && more.front() == ids.back();
-      ids.insert(ids.end(), more.begin() + (joined ? 1 : 0), more.end());
+      const auto meets = [&more](std::string_view end) {
+        return more.front() == end || more.back() == end;
+      };
+      if (++ways == 2 && !meets(ids.back()))
+        std::ranges::reverse(ids);
+      if (ways > 1 && !meets(ids.back()))
+        osm_.refuse(member, fmt::format("way \"{}\" of the {} bound does not "
+                                        "begin where the one before it ends.",
+                                        osm_.text(member, "ref"), role));
+      if (ways > 1 && more.front() != ids.back())
+        std::ranges::reverse(more);
+      ids.insert(ids.end(), more.begin() + (ways > 1 ? 1 : 0), more.end());
+      if (ids.size() > most_points)
+        break;
     }
     if (ids.size() < 2)
       osm_.refuse(relation, fmt::format("the lanelet needs a {} bound.", role));
+    limits_.count_line(relation, points(ids));
     return ids;
   }
 
@@ -142,6 +163,9 @@ private:
       if (!nodes_.contains(id))
         osm_.refuse(nd, fmt::format("there is no node \"{}\".", id));
       ids.push_back(id);
+      if (ids.size() > most_points)
+        osm_.refuse(way,
+                    fmt::format("a bound has {} nodes at most.", most_points));
     }
     if (ids.size() < 2)
       osm_.refuse(way, "a bound needs two nodes.");
@@ -167,18 +191,23 @@ private:
       return;
     }
     const std::string name{osm_.text(relation, "id")};
-    if (by_name_.contains(name))
-      osm_.refuse(relation,
-                  fmt::format("there are two lanelets \"{}\".", name));
+    know(relation, name);
     auto left = line(relation, "left"), right = line(relation, "right");
     orient(left, right);
     const auto both_ways = tag(relation, "one_way") == "no";
-    add(relation, {name, left, right}, both_ways);
+    add(relation, {name, relation, left, right}, both_ways);
     if (!both_ways)
       return;
     std::ranges::reverse(left);
     std::ranges::reverse(right);
-    add(relation, {name + " back", right, left}, both_ways);
+    know(relation, name + " back");
+    add(relation, {name + " back", relation, right, left}, both_ways);
+  }
+
+  void know(pugi::xml_node relation, const std::string& name) {
+    if (!known_.insert(name).second)
+      osm_.refuse(relation,
+                  fmt::format("there are two lanelets \"{}\".", name));
   }
 
   /// Bounds are drawn in either direction: here they run beside each other,
@@ -252,8 +281,10 @@ private:
       if (found == starts.end())
         continue;
       for (const auto j : found->second)
-        if (j != i)
+        if (j != i) {
+          limits_.count_link(l.at, i, j);
           map_.lanes[i].next.push_back(map_.lanes[j].name);
+        }
     }
   }
 
@@ -272,11 +303,13 @@ private:
   }
 
   const xml_file& osm_;
+  road_limits limits_;
   source_map map_;
   std::unordered_map<std::string_view, point> nodes_;
   std::unordered_map<std::string_view, pugi::xml_node> ways_;
   std::unordered_map<std::string, std::size_t> by_name_;
-  std::vector<lanelet> lanelets_; // of each lane
+  std::unordered_set<std::string> known_; // lanelets, too narrow ones as well
+  std::vector<lanelet> lanelets_;         // of each lane
 };
 
 } // namespace

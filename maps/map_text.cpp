@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <set>
+#include <string_view>
 
 namespace sofof::maps {
 
@@ -45,10 +47,12 @@ void put(std::string& to, const world::lane& l) {
 std::vector<std::string> route_names(const imported_map& map) {
   std::vector<std::string> names;
   std::set<std::string> known;
+  std::map<std::string_view, int> last; // number behind a name
   for (const auto& r : map.routes) {
     auto name = r.name;
-    for (auto i = 2; !known.insert(name).second; ++i)
-      name = fmt::format("{} {}", r.name, i);
+    for (auto& i = last.try_emplace(r.name, 1).first->second;
+         !known.insert(name).second;)
+      name = fmt::format("{} {}", r.name, ++i);
     names.push_back(std::move(name));
   }
   return names;

@@ -67,9 +67,10 @@ std::vector<point> sampled(std::span<const point> source,
       std::clamp(static_cast<std::size_t>(std::ceil(length / step_m)),
                  least_steps, most_steps);
   std::vector<point> all;
+  line_walk along{source};
   for (std::size_t i = 0; i <= count; ++i)
-    all.push_back(point_along(source, length * static_cast<double>(i)
-                                          / static_cast<double>(count)));
+    all.push_back(
+        along.to(length * static_cast<double>(i) / static_cast<double>(count)));
   all.front() = ends.start;
   all.back() = ends.end;
   return all;

@@ -26,15 +26,21 @@ double bend_between(point a, point b, point c) {
 
 } // namespace
 
-point point_along(std::span<const point> line, double s_m) {
-  assert(!line.empty());
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    const auto length = distance_m(line[i], line[i + 1]);
-    if (s_m <= length && length > 0)
-      return line[i] + (std::max(s_m, 0.0) / length) * (line[i + 1] - line[i]);
-    s_m -= length;
+point line_walk::to(double s_m) {
+  assert(!line_.empty());
+  for (; segment_ + 1 < line_.size(); ++segment_) {
+    const auto from = line_[segment_], next = line_[segment_ + 1];
+    const auto length = distance_m(from, next);
+    const auto on_m = std::max(s_m - begins_m_, 0.0);
+    if (on_m <= length && length > 0)
+      return from + (on_m / length) * (next - from);
+    begins_m_ += length;
   }
-  return line.back();
+  return line_.back();
+}
+
+point point_along(std::span<const point> line, double s_m) {
+  return line_walk{line}.to(s_m);
 }
 
 std::vector<point> part_of(std::span<const point> line, double from_m,

@@ -14,6 +14,23 @@ namespace sofof::maps {
 /// @param s_m   From its start on; clamped to its length.
 point point_along(std::span<const point> line, double s_m);
 
+/// Points along a line, each at least as far on as the one before: all of them
+/// take as long as one walk.
+class line_walk {
+public:
+  /// @param line  At least 1 point; outlives this.
+  explicit line_walk(std::span<const point> line) : line_{line} {}
+
+  /// @param s_m  From the line's start on; clamped to its length, and not less
+  ///             than that of the call before.
+  point to(double s_m);
+
+private:
+  std::span<const point> line_;
+  std::size_t segment_ = 0;
+  double begins_m_ = 0; // the segment
+};
+
 /// @returns the part of a line between two arc lengths, both of its length at
 /// most.
 std::vector<point> part_of(std::span<const point> line, double from_m,

@@ -3,6 +3,8 @@
 
 #include "world/vehicle/vehicle.hpp"
 
+#include <fmt/format.h>
+
 #include "maps/p_spline.hpp"
 #include "maps/polyline.hpp"
 #include "maps/swept_body.hpp"
@@ -10,6 +12,7 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 #include <string_view>
 #include <unordered_map>
 
@@ -147,7 +150,12 @@ private:
     all.place(lanes_);
     std::vector<drawn_lane> drawn;
     for (std::size_t i = 0; i < lanes_.size(); ++i)
-      drawn.push_back(draw(i, all));
+      try {
+        drawn.push_back(draw(i, all));
+      } catch (const std::invalid_argument& problem) {
+        throw std::invalid_argument{
+            fmt::format("lane \"{}\": {}", lanes_[i].name, problem.what())};
+      }
     return drawn;
   }
 

@@ -42,6 +42,10 @@ struct departure {
 /// How many of what was left out: "U-turns" → 12.
 using tally = std::map<std::string, std::size_t>;
 
+/// What of a map's origin is left out: places of a UTM zone are counted from
+/// the equator to the north.
+inline constexpr auto southern = "the place on earth, south of the equator";
+
 /// All that is known of a map before its lanes are drawn smoothly.
 struct source_map {
   std::string name;

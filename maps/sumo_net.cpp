@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "maps/road_limits.hpp"
 #include "maps/split_words.hpp"
 #include "maps/sumo_ranks.hpp"
 #include <algorithm>
@@ -38,7 +39,7 @@ bool admits_cars(pugi::xml_node lane) {
 
 class net_reader {
 public:
-  explicit net_reader(const xml_file& net) : net_{net} {}
+  explicit net_reader(const xml_file& net) : net_{net}, limits_{net} {}
 
   source_map read() {
     find_frame();
@@ -68,6 +69,10 @@ private:
         location.attribute("projParameter").value();
     if (projection.find("+proj=utm") == projection.npos)
       return;
+    if (projection.find("+south") != projection.npos) {
+      map_.left_out[southern] = 1;
+      return;
+    }
     const auto zone = number_after(projection, "+zone=");
     const world::geo_origin origin{.utm_e_m = middle_.x_m - offset[0],
                                    .utm_n_m = middle_.y_m - offset[1],
@@ -128,7 +133,7 @@ private:
     }
   }
 
-  std::vector<point> shape(pugi::xml_node lane) const {
+  std::vector<point> shape(pugi::xml_node lane) {
     std::vector<point> points;
     for (const auto place : split_words(net_.text(lane, "shape"))) {
       const auto parts = split_words(place, ',');
@@ -141,6 +146,7 @@ private:
     }
     if (points.size() < 2)
       net_.refuse(lane, "the shape of a lane needs two points.");
+    limits_.count_line(lane, points);
     return points;
   }
 
@@ -175,8 +181,14 @@ private:
     if (distance_m(from->centre.back(), to->centre.front())
         > netconvert_joint_m)
       ++map_.left_out["connections between lanes that do not meet"];
-    else if (std::ranges::find(from->next, to->name) == from->next.end())
+    else if (std::ranges::find(from->next, to->name) == from->next.end()) {
+      limits_.count_link(c, number_of(from), number_of(to));
       from->next.push_back(to->name);
+    }
+  }
+
+  std::size_t number_of(const source_lane* lane) const {
+    return static_cast<std::size_t>(lane - map_.lanes.data());
   }
 
   /// Whether it joins footways.
@@ -192,6 +204,7 @@ private:
   }
 
   const xml_file& net_;
+  road_limits limits_;
   source_map map_;
   point middle_;
   std::unordered_set<std::string> known_; // lanes, closed ones included

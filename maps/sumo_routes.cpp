@@ -17,7 +17,9 @@ public:
 
   void read() {
     for (const auto route : file_.root().children("route"))
-      numbers_.emplace(file_.text(route, "id"), add(route));
+      if (!numbers_.emplace(file_.text(route, "id"), add(route)).second)
+        file_.refuse(route, fmt::format("there are two routes \"{}\".",
+                                        file_.text(route, "id")));
     for (const auto vehicle : file_.root().children("vehicle"))
       read_vehicle(vehicle);
     for (const auto* kind : {"trip", "flow"}) {

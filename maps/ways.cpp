@@ -116,9 +116,17 @@ std::vector<lane_route> propose_ways(const source_map& source,
   return explorer{source, lanes}.explore(most);
 }
 
+way_finder::way_finder(const source_map& source,
+                       const std::vector<drawn_lane>& lanes)
+    : source_{source}, lanes_{lanes}, next_{followers_of(lanes)} {
+  assert(source.lanes.size() == lanes.size());
+  for (std::size_t i = 0; i < lanes.size(); ++i)
+    if (const auto& edges = source.lanes[i].edges; !edges.empty())
+      by_edge_[edges.front()].push_back(i);
+}
+
 std::optional<std::vector<std::string>>
-lanes_for(const source_route& route, const source_map& source,
-          const std::vector<drawn_lane>& lanes, const followers& next) {
+way_finder::lanes_for(const source_route& route) const {
   struct step {
     std::size_t lane, done; // edges of the route, this lane's included
     std::size_t from;       // in `steps`
@@ -126,26 +134,28 @@ lanes_for(const source_route& route, const source_map& source,
   std::vector<step> steps;
   std::map<std::pair<std::size_t, std::size_t>, bool> seen;
   const auto go = [&](std::size_t lane, std::size_t done, std::size_t from) {
-    if (!lanes[lane].is_drivable())
+    if (!lanes_[lane].is_drivable())
       return;
-    for (const auto& edge : source.lanes[lane].edges)
+    for (const auto& edge : source_.lanes[lane].edges)
       if (done == route.edges.size() || route.edges[done++] != edge)
         return;
     if (seen.emplace(std::pair{lane, done}, true).second)
       steps.push_back({lane, done, from});
   };
-  for (std::size_t i = 0; i < lanes.size() && !route.edges.empty(); ++i)
-    if (!source.lanes[i].edges.empty()
-        && source.lanes[i].edges.front() == route.edges.front())
+  if (const auto first = route.edges.empty()
+                             ? by_edge_.end()
+                             : by_edge_.find(route.edges.front());
+      first != by_edge_.end())
+    for (const auto i : first->second)
       go(i, 0, nobody);
   for (std::size_t k = 0; k < steps.size(); ++k) {
     if (steps[k].done == route.edges.size()) {
       std::vector<std::string> way;
       for (auto i = k; i != nobody; i = steps[i].from)
-        way.insert(way.begin(), lanes[steps[i].lane].is.name);
+        way.insert(way.begin(), lanes_[steps[i].lane].is.name);
       return way;
     }
-    for (const auto j : next[steps[k].lane])
+    for (const auto j : next_[steps[k].lane])
       go(j, steps[k].done, k);
   }
   return std::nullopt;

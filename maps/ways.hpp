@@ -5,6 +5,8 @@
 #include "maps/smooth_lanes.hpp"
 #include <optional>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 namespace sofof::maps {
@@ -23,12 +25,24 @@ std::vector<lane_route> propose_ways(const source_map& source,
                                      const std::vector<drawn_lane>& lanes,
                                      std::size_t most = 24);
 
-/// Finds lanes for a list of edges. Nobody changes lanes: a way must lead from
+/// Finds lanes for lists of edges. Nobody changes lanes: a way must lead from
 /// each edge to the next.
-/// @returns the way with the fewest lanes, of these the first one; nullopt if
-/// there is none, or if it needs a lane that no car can follow.
-std::optional<std::vector<std::string>>
-lanes_for(const source_route& route, const source_map& source,
-          const std::vector<drawn_lane>& lanes, const followers& next);
+class way_finder {
+public:
+  /// What it is given outlives it.
+  way_finder(const source_map& source, const std::vector<drawn_lane>& lanes);
+
+  /// @returns the way with the fewest lanes, of these the first one; nullopt if
+  /// there is none, or if it needs a lane that no car can follow.
+  std::optional<std::vector<std::string>>
+  lanes_for(const source_route& route) const;
+
+private:
+  const source_map& source_;
+  const std::vector<drawn_lane>& lanes_;
+  followers next_;
+  /// Lanes by the edge that is driven on them first, in order.
+  std::unordered_map<std::string_view, std::vector<std::size_t>> by_edge_;
+};
 
 } // namespace sofof::maps

@@ -13,6 +13,44 @@
 
 namespace sofof::maps {
 
+namespace {
+
+/// @returns how many bytes the sequence has that begins with this one; 0 if
+/// none does.
+std::size_t sequence_length(unsigned char first) {
+  if (first < 0x80)
+    return 1;
+  if (first >= 0xc2 && first < 0xe0)
+    return 2;
+  if (first >= 0xe0 && first < 0xf0)
+    return 3;
+  return first >= 0xf0 && first < 0xf5 ? 4 : 0;
+}
+
+/// RFC 3629: no overlong forms, no surrogates, nothing beyond U+10FFFF.
+bool is_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const auto byte = [&](std::size_t k) {
+      return static_cast<unsigned char>(text[i + k]);
+    };
+    const auto length = sequence_length(byte(0));
+    if (length == 0 || i + length > text.size())
+      return false;
+    for (std::size_t k = 1; k < length; ++k)
+      if ((byte(k) & 0xc0) != 0x80)
+        return false;
+    if ((byte(0) == 0xe0 && byte(1) < 0xa0)
+        || (byte(0) == 0xed && byte(1) >= 0xa0)
+        || (byte(0) == 0xf0 && byte(1) < 0x90)
+        || (byte(0) == 0xf4 && byte(1) >= 0x90))
+      return false;
+    i += length;
+  }
+  return true;
+}
+
+} // namespace
+
 xml_file::xml_file(std::string_view text, std::string file)
     : source_{text}, file_{std::move(file)} {
   const auto result = document_.load_buffer(
@@ -45,6 +83,10 @@ std::string_view xml_file::text(pugi::xml_node at,
   if (!found || !*found.value())
     refuse(at, fmt::format("<{}> needs the attribute \"{}\".", at.name(),
                            attribute));
+  if (!is_utf8(found.value()))
+    refuse(at, fmt::format("\"{}\" of <{}> is no UTF-8; save the file with "
+                           "this encoding.",
+                           attribute, at.name()));
   return found.value();
 }
 

@@ -24,7 +24,7 @@ public:
   /// @throws input_error that names the place of the element.
   [[noreturn]] void refuse(pugi::xml_node at, std::string_view why) const;
 
-  /// @returns an attribute that has to be there.
+  /// @returns an attribute that has to be there, UTF-8.
   std::string_view text(pugi::xml_node at, const char* attribute) const;
 
   /// @returns a number that has to be there, finite and from `least` to

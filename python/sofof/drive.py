@@ -1,4 +1,5 @@
 """A run whose decisions are made here: what environments stand on."""
+import contextlib
 import json
 import os
 import pathlib
@@ -37,21 +38,29 @@ class _Started:
     def close(self) -> None:
         """Ends the run if it goes on, and removes what it wrote."""
         for x in self.sockets:
-            try:
-                x.close()
-            except OSError:
-                pass  # what was not sent is of no use any more
+            with contextlib.suppress(OSError):
+                x.close()  # what was not sent is of no use any more
         self.sockets = []
-        if self.process and self.process.poll() is None:
-            self.process.kill()
-        if self.process:
-            self.process.wait()
-        if self.handed_over_by is not None:
-            if not _readable([self.handed_over_by], LEAVE_S):
-                signal.pidfd_send_signal(self.handed_over_by, signal.SIGKILL)
-            os.close(self.handed_over_by)
-            self.handed_over_by = None
-        shutil.rmtree(self.folder, ignore_errors=True)
+        try:
+            if self.process and self.process.poll() is None:
+                self.process.kill()
+            if self.process:
+                self.process.wait()
+            self._end_policy()
+        finally:
+            shutil.rmtree(self.folder, ignore_errors=True)
+
+    def _end_policy(self) -> None:
+        """Waits for the process of the policy a little, then ends it."""
+        if self.handed_over_by is None:
+            return
+        descriptor, self.handed_over_by = self.handed_over_by, None
+        try:
+            if not _readable([descriptor], LEAVE_S):
+                with contextlib.suppress(ProcessLookupError):  # ended by itself
+                    signal.pidfd_send_signal(descriptor, signal.SIGKILL)
+        finally:
+            os.close(descriptor)
 
 
 def _readable(what: list[Any], timeout_s: float) -> list[Any]:

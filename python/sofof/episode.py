@@ -15,6 +15,13 @@ def _stay(_: Ask) -> Decision:
     return stay("no agent's")
 
 
+def _riders(fleet: Mapping[str, Any]) -> int:
+    """How many of a fleet's vehicles provide for others."""
+    if "provide" not in fleet:
+        return 0
+    return fleet["count"] if fleet["provide"]["cars"] == "all" else 1
+
+
 class Setting:
     """What all episodes of an environment have in common.
 
@@ -28,7 +35,7 @@ class Setting:
 
     Attributes:
         stations: of all vehicles that may offload.
-        providers: how many there are.
+        providers: how many there are, those in vehicles included.
 
     Raises:
         SofofError: the scenario is wrong, or has no such service.
@@ -51,7 +58,8 @@ class Setting:
                          for fleet in config["fleet"]
                          if fleet.get("connected", True)
                          for k in range(fleet["count"])]
-        self.providers = len(config.get("provider", []))
+        self.providers = len(config.get("provider", [])) + sum(
+            _riders(fleet) for fleet in config["fleet"])
         known = [x["name"] for x in config["service"]]
         if service not in known:
             raise ValueError(f"{self.scenario} has no service {service!r}, but "

@@ -315,6 +315,15 @@ class Simulation(here.InFolder):
             self.assertEqual(play(env, 3, lambda k: k % 2), first)
         self.assertGreater(len(first), 6 * 15)
 
+    def test_vehicles_that_provide_may_be_asked(self):
+        world = {"scenario": here.CONFIG / "convoy.toml", "duration": "10s"}
+        with sofof.OffloadingEnv(**world) as env:
+            self.assertEqual(env.action_space.n, 2)
+        three = {"fleet.0.provide.cars": "all", "fleet.0.count": 3,
+                 "fleet.0.first_station": 90}
+        with sofof.OffloadingEnv(**world, set=three) as env:
+            self.assertEqual(env.action_space.n, 4)
+
     def test_it_conforms(self):
         conformance.check_aec(lambda: sofof.env(**self.SHORT), self)
         conformance.check_parallel(lambda: sofof.parallel_env(**self.SHORT),

@@ -3,12 +3,21 @@
 # machine changes them little.
 before=8bff3af # with which it is compared
 
-# cpu COMMAND...: the seconds of user and system that it takes.
+# cpu COMMAND...: the seconds of user and system that it takes. Fails if the
+# command does, with the end of what it printed.
 cpu() {
-  local TIMEFORMAT='%U %S'
-  { time "$@" >"$work/build.log" 2>&1; } 2>&1 | tail -n 1 \
-    | awk '{ printf "%.0f", $1 + $2 }'
+  local TIMEFORMAT='%U %S' code=0
+  { time "$@" >"$work/build.log" 2>&1; } 2>"$work/build.time" || code=$?
+  if [[ $code != 0 ]]; then
+    say "$* ends with $code:"
+    tail -n 20 "$work/build.log" >&2
+    return 1
+  fi
+  tail -n 1 "$work/build.time" | awk '{ printf "%.0f", $1 + $2 }'
 }
+
+# unbuilt WHAT: a row that fails; no other of this part can be measured.
+unbuilt() { line "first build: $1" "failed" "is built" false; }
 
 # checked_out COMMIT FOLDER: as a user has it, without a build.
 checked_out() {
@@ -54,8 +63,10 @@ first_build() {
   for name in new old; do
     [[ -d $work/$name ]] || continue
     say "CAF, then sofof of $name, with empty caches"
-    caf_s[$name]=$(cpu alone "$name" "$work/$name/cmake/caf/build.sh")
-    ours_s[$name]=$(cpu alone "$name" "$work/$name/sofof" setup)
+    caf_s[$name]=$(cpu alone "$name" "$work/$name/cmake/caf/build.sh") \
+      || { unbuilt "CAF of $name"; return 0; }
+    ours_s[$name]=$(cpu alone "$name" "$work/$name/sofof" setup) \
+      || { unbuilt "sofof of $name"; return 0; }
   done
   caf=$(share "${caf_s[new]}" "${caf_s[old]}")
   at_most "CAF: ${caf_s[new]} s of ${caf_s[old]} s" "$caf" % 60
@@ -70,7 +81,9 @@ first_build() {
   fi
   say "a second checkout, with the first one's caches"
   alone new ccache --zero-stats >/dev/null
-  counted "a second checkout" "$(cpu alone new "$work/second/sofof" setup) s"
+  ours=$(cpu alone new "$work/second/sofof" setup) \
+    || { unbuilt "a second checkout"; return 0; }
+  counted "a second checkout" "$ours s"
   read -r missed all < <(compiled new)
   at_most "second checkout: $missed of $all compiled" \
     "$(share "$missed" "$all")" % 10
