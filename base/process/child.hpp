@@ -92,7 +92,11 @@ public:
   /// ended after this time.
   child_end stop(std::chrono::milliseconds grace);
 
+  /// Kills it and its group, without waiting for their end.
+  void kill_now();
+
 private:
+  void send_signal(int number) const;
   child_end reap();
 
   pid_t pid_ = -1;
