@@ -56,8 +56,14 @@ struct prepared_child {
 constexpr int first_other_file = STDERR_FILENO + 1;
 
 void set_limit(int resource, std::uint64_t most, start_failure& failed) {
-  const rlimit both{most, most};
-  if (most > 0 && setrlimit(static_cast<__rlimit_resource>(resource), &both))
+  if (most == 0)
+    return;
+  const auto which = static_cast<__rlimit_resource>(resource);
+  rlimit both{};
+  if (getrlimit(which, &both) == 0) // which nobody may raise
+    both.rlim_max = std::min<rlim_t>(both.rlim_max, most);
+  both.rlim_cur = both.rlim_max;
+  if (setrlimit(which, &both) != 0)
     failed = {start_failure::its_limits, errno};
 }
 
@@ -392,6 +398,28 @@ std::optional<fs::path> find_program(std::string_view name,
     left.remove_prefix(end + 1);
   }
   return std::nullopt;
+}
+
+std::vector<command_file> command_files(const std::vector<std::string>& words,
+                                        const fs::path& folder) {
+  std::vector<command_file> all;
+  const auto add = [&](const std::string& name) {
+    std::error_code ignored;
+    const auto is_known = std::ranges::any_of(
+        all, [&](const auto& x) { return !x.is_sought && x.name == name; });
+    if (!name.empty() && !is_known
+        && fs::is_regular_file(folder / name, ignored))
+      all.push_back({name, folder / name});
+  };
+  if (!words.empty() && words.front().find('/') == std::string::npos)
+    if (const auto program = find_program(words.front(), folder))
+      all.push_back({words.front(), *program, true});
+  for (const auto& word : words) {
+    add(word);
+    if (const auto equals = word.find('='); equals != word.npos)
+      add(word.substr(equals + 1));
+  }
+  return all;
 }
 
 } // namespace sofof

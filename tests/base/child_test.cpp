@@ -15,6 +15,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -138,6 +139,38 @@ TEST_CASE("a child that somebody else reaps has ended, too") {
     std::this_thread::sleep_for(1ms);
   signal(SIGCHLD, before);
   CHECK(gone.poll_end());
+}
+
+TEST_CASE("a command names its program and what its words say of files") {
+  const auto found = [](std::string_view command) {
+    std::string names;
+    for (const auto& file : command_files(command_words(command), "/etc"))
+      names += file.name + (file.is_sought ? " in PATH, " : ", ");
+    return names;
+  };
+  CHECK(found("sh passwd --weights=group --other=none group")
+        == "sh in PATH, passwd, group, ");
+  CHECK(found("/bin/sh -c x") == "/bin/sh, ");
+  CHECK(found("no_such_program .") == "");
+  CHECK(found("") == "");
+}
+
+TEST_CASE("a child has no more than we may have ourselves") {
+  const auto starter = fork();
+  REQUIRE(starter >= 0);
+  if (starter == 0) { // what it lowers stays low
+    const rlimit both{500, 500};
+    auto much = shell("ulimit -t");
+    much.limits.cpu_s = 1000;
+    child one{much};
+    const auto before = all_of(one);
+    setrlimit(RLIMIT_CPU, &both);
+    child other{much};
+    _exit(before == "1000\n" && all_of(other) == "500\n" ? 0 : 1);
+  }
+  int status = -1;
+  CHECK(waitpid(starter, &status, 0) == starter);
+  CHECK(status == 0);
 }
 
 TEST_CASE("a wait may be as long as time is") {
