@@ -114,6 +114,7 @@ int obey(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN); // a full quota is an error, no death
+  std::signal(SIGCHLD, SIG_DFL); // ignored, how children end would be lost
   // One arena for malloc: an actor system hands memory from thread to thread,
   // and with an arena per thread it spreads out.
   mallopt(M_ARENA_MAX, 1);

@@ -49,6 +49,8 @@ public:
     s.field("command", use_.command); // whoever loads it needs one
     s.field("folder", use_.folder);
     s.field("time_limit", use_.time_limit, std::chrono::milliseconds{1});
+    if (use_.time_limit > std::chrono::hours{1})
+      s.refuse("time_limit", "must not be more than \"1h\".");
     s.field("epoch_s", epoch_s_, {0, longest_epoch_s});
   }
   std::string_view name() const override { return "process"; }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "programs/answers.hpp"
+#include "programs/line_pipe.hpp"
 #include <cassert>
 #include <utility>
 #include <vector>
@@ -32,8 +33,9 @@ public:
       met_.pop_back();
     else if (event == met::key
              && !met_.back().insert(found.get_ref<const std::string&>()).second)
-      throw answer_error{fmt::format("it must give \"{}\" only once",
-                                     found.get_ref<const std::string&>())};
+      throw answer_error{
+          fmt::format("it must give \"{}\" only once",
+                      quoted_line(found.get_ref<const std::string&>()))};
     return true;
   }
 
@@ -122,7 +124,8 @@ void json_members::finish() const {
 }
 
 void json_members::refuse(std::string_view name, std::string_view why) const {
-  throw answer_error{fmt::format("\"{}{}\" {}", where_, name, why)};
+  throw answer_error{
+      fmt::format("\"{}{}\" {}", where_, quoted_line(name), why)};
 }
 
 } // namespace sofof::programs

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <csignal>
 #include <cstddef>
 #include <span>
 #include <sys/socket.h>
@@ -93,7 +92,7 @@ void line_pipe::end(std::string_view lines) {
 // Before it can complain that nobody reads any more.
 void line_pipe::stop() {
   if (!child_.poll_end())
-    ::kill(-child_.id(), SIGKILL);
+    child_.kill_now();
   child_.stop({});
 }
 

@@ -128,7 +128,7 @@ public:
 
   world_actors build() {
     for (std::uint32_t k = 0; k < s_.providers.size(); ++k)
-      if (lives_here(k))
+      if (lives_here(s_, here_, k))
         add_provider(k);
     for (const auto& to : here_.remotes)
       add_connection(to);
@@ -180,12 +180,6 @@ private:
   }
 
   // -- providers ------------------------------------------------------------
-
-  // What rides with a vehicle lives where that does.
-  bool lives_here(std::uint32_t number) const {
-    const auto& carrier = s_.providers[number].carrier;
-    return carrier ? here_.drives(carrier->station) : here_.provides(number);
-  }
 
   void add_provider(std::uint32_t number) {
     const auto& options = s_.providers[number];
@@ -454,6 +448,12 @@ private:
 };
 
 } // namespace
+
+bool lives_here(const scenario_definition& s, const process_share& here,
+                std::size_t number) {
+  const auto& carrier = s.providers[number].carrier;
+  return carrier ? here.drives(carrier->station) : here.provides(number);
+}
 
 world_actors build(caf::actor_system& sys, const scenario_definition& s,
                    std::shared_ptr<messages::record_sink> sink,

@@ -44,6 +44,12 @@ struct process_share {
   std::function<void(const messages::cam&, time_point)> on_heard;
 };
 
+/// @returns whether this process runs a provider: what rides with a vehicle
+/// lives where that does.
+/// @param number  Its place in the scenario, counting from 0.
+bool lives_here(const scenario_definition& s, const process_share& here,
+                std::size_t number);
+
 /// What is measured of a provider and of the radio cell round it. One that has
 /// started again goes on with the same.
 struct provider_load {

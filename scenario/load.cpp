@@ -136,20 +136,28 @@ void load_programs(scenario_definition& all, const fs::path& folder,
     }
   };
   const auto read = [&all](const fs::path& file) {
-    all.program_texts.push_back(require_text(file));
+    const auto content = read_regular_file(file, longest_named);
+    if (!content.refusal.empty())
+      throw std::invalid_argument{fmt::format("the file {} cannot be read: {}",
+                                              file.string(), content.refusal)};
+    all.program_texts.push_back(
+        content_key(file.filename().string(), content.text));
     all.read_from.push_back(file);
   };
   for (std::size_t k = 0; k < all.services.size(); ++k) {
     const auto& type = all.services[k];
-    try_to(fmt::format("service.{}", k), [&] { type->load(folder); });
-    std::ranges::for_each(type->files(), read);
+    try_to(fmt::format("service.{}", k), [&] {
+      type->load(folder);
+      std::ranges::for_each(type->files(), read);
+    });
   }
   for (std::size_t p = 0; p < all.providers.size(); ++p)
     for (std::size_t k = 0; k < all.providers[p].programs.size(); ++k) {
       auto& program = all.providers[p].programs[k].what;
-      try_to(fmt::format("provider.{}.program.{}.command", p, k),
-             [&] { program.locate(folder); });
-      std::ranges::for_each(program.files(), read);
+      try_to(fmt::format("provider.{}.program.{}.command", p, k), [&] {
+        program.locate(folder);
+        std::ranges::for_each(program.files(), read);
+      });
     }
 }
 

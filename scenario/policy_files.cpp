@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 #include <stdexcept>
 #include <unistd.h>
 #include <utility>
@@ -20,9 +19,6 @@ namespace sofof::scenario {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Programs and what they go by may be longer than what is written by hand.
-constexpr std::size_t longest_named = std::size_t{256} << 20;
 
 constexpr std::string_view snapshot_copy = "lodm_snapshot.txt";
 
@@ -35,15 +31,6 @@ std::string copies_of(std::string_view side) {
 /// from.
 bool stays_inside(const fs::path& path) {
   return path.is_relative() && *path.begin() != "..";
-}
-
-/// @returns what of a word may be a file's name: all of it, and what is behind
-/// a "=".
-std::vector<std::string> names_in(const std::string& word) {
-  std::vector<std::string> names{word};
-  if (const auto equals = word.find('='); equals != word.npos)
-    names.push_back(word.substr(equals + 1));
-  return names;
 }
 
 /// Reads the files that the command of one side names.
@@ -71,10 +58,8 @@ public:
                              ? " in PATH"
                              : " that may be executed, seen from "
                                    + folder.string()));
-    for (const auto& word : words)
-      for (const auto& name : names_in(word))
-        if (met_.insert(name).second)
-          add(name, folder / name);
+    for (const auto& file : command_files(words, folder))
+      add(file);
   }
 
 private:
@@ -86,23 +71,20 @@ private:
     }
   }
 
-  void add(const std::string& name, const fs::path& file) {
-    std::error_code ignored;
-    if (name.empty() || !fs::is_regular_file(file, ignored))
-      return;
+  void add(const command_file& named) {
+    const auto& file = named.at;
     auto content = read_regular_file(file, longest_named);
     if (!content.refusal.empty())
       refuse("command", fmt::format("names the file {}, which cannot be read: "
                                     "{}.",
                                     file.string(), content.refusal));
     all_.read_from.push_back(file);
-    policy_file found{.key = fmt::format("{} {} {} {:016x}", side_, name,
-                                         content.text.size(),
-                                         fingerprint(content.text)),
+    policy_file found{.key = fmt::format("{} {}", side_,
+                                         content_key(named.name, content.text)),
                       .copy = {},
                       .text = {}};
-    if (const auto path = fs::path{name}.lexically_normal();
-        stays_inside(path)) {
+    if (const auto path = fs::path{named.name}.lexically_normal();
+        !named.is_sought && stays_inside(path)) {
       found.copy = (copies_of(side_) / path).string();
       found.text = std::move(content.text);
       found.is_executable = access(file.c_str(), X_OK) == 0;
@@ -120,7 +102,6 @@ private:
   std::string_view side_;
   const toml_file& source_;
   bool is_run_;
-  std::set<std::string> met_;
 };
 
 void load_snapshot(scenario_definition& all, const fs::path& folder,
@@ -142,13 +123,16 @@ void load_snapshot(scenario_definition& all, const fs::path& folder,
                               file.string(), *why, lodm.name()));
   all.read_from.push_back(file);
   all.policies.files.push_back(
-      {.key = fmt::format("lodm snapshot {} {:016x}", content.text.size(),
-                          fingerprint(content.text)),
+      {.key = fmt::format("lodm {}", content_key("snapshot", content.text)),
        .copy = std::string{snapshot_copy},
        .text = std::move(content.text)});
 }
 
 } // namespace
+
+std::string content_key(std::string_view name, std::string_view text) {
+  return fmt::format("{} {} {:016x}", name, text.size(), fingerprint(text));
+}
 
 void load_policy_files(scenario_definition& all, const fs::path& folder,
                        const toml_file& source, bool is_run) {

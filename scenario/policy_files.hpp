@@ -5,12 +5,19 @@
 #include "base/options/toml_file.hpp"
 #include "scenario/scenario.hpp"
 
+#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <string_view>
 
 namespace sofof::scenario {
+
+/// Programs and what they go by may be longer than what is written by hand.
+inline constexpr std::size_t longest_named = std::size_t{256} << 20;
+
+/// @returns what tells a file with this content from others.
+std::string content_key(std::string_view name, std::string_view text);
 
 /// Reads them, and has learners take up what they say.
 /// @param all     Gets their texts, and where programs run.

@@ -147,11 +147,12 @@ void look_up(actors::provider_connection_setup& setup, discovery& where,
 std::vector<drive_options::provider>
 wanted_providers(const scenario_definition& s, const drive_options& what) {
   auto all = what.providers;
+  const auto standing = std::ranges::count_if(
+      s.providers, [](const auto& p) { return !p.carrier; });
   if (what.registry)
     for (const auto& p : s.providers)
       if (!p.carrier && std::ranges::none_of(all, [&](const auto& x) {
-            return x.name == p.name
-                   || (x.name.empty() && s.providers.size() == 1);
+            return x.name == p.name || (x.name.empty() && standing == 1);
           }))
         all.push_back({p.name, std::nullopt});
   return all;

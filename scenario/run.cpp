@@ -301,7 +301,7 @@ deciding_sides deciding_in(const scenario_definition& s,
   for (const auto& v : place_vehicles(s))
     sides.lodm = sides.lodm || here.drives(v.station);
   for (std::size_t k = 0; k < s.providers.size(); ++k)
-    sides.codm = sides.codm || here.provides(k);
+    sides.codm = sides.codm || lives_here(s, here, k);
   return sides;
 }
 

@@ -97,8 +97,8 @@ struct scenario_definition {
   std::string map_text;     ///< What the map's file says; empty for a grid.
   /// What the trace's file says; empty for none. There is at most one file.
   std::string trace_text;
-  /// What the files say that programs are made of, and get. There are none
-  /// where a scenario is only read, and not run.
+  /// Name, size and fingerprint of each file that programs are made of, or get.
+  /// There are none where a scenario is only read, and not run.
   std::vector<std::string> program_texts;
   /// The files that all this was read from.
   std::vector<std::filesystem::path> read_from;

@@ -4,6 +4,7 @@
 #include "actors/offloading/broadcast_listener.hpp"
 #include "actors/offloading/provider_links.hpp"
 #include "actors/runtime/recorder.hpp"
+#include "actors/runtime/spawn_decider.hpp"
 #include "actors/runtime/time.hpp"
 
 #include <caf/stateful_actor.hpp>
@@ -110,7 +111,7 @@ provider(provider_impl::stateful_pointer<provider_state> self,
 
 messages::roadside_provider_actor
 spawn_service_provider(caf::actor_system& sys, provider_actor_setup setup) {
-  return sys.spawn(provider, std::move(setup));
+  return spawn_decider(sys, *setup.codm, provider, std::move(setup));
 }
 
 } // namespace sofof::actors

@@ -4,10 +4,10 @@
 #include "actors/offloading/own_function.hpp"
 #include "actors/offloading/requester_links.hpp"
 #include "actors/offloading/service_manager.hpp"
+#include "actors/runtime/spawn_decider.hpp"
 #include "actors/runtime/time.hpp"
 
 #include <caf/stateful_actor.hpp>
-#include <caf/typed_event_based_actor.hpp>
 
 #include <optional>
 #include <utility>
@@ -114,7 +114,7 @@ requester(requester_impl::stateful_pointer<requester_state> self,
 
 messages::onboard_requester_actor
 spawn_service_requester(caf::actor_system& sys, requester_actor_setup setup) {
-  return sys.spawn(requester, std::move(setup));
+  return spawn_decider(sys, *setup.lodm, requester, std::move(setup));
 }
 
 } // namespace sofof::actors

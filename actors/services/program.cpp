@@ -71,7 +71,8 @@ public:
   bool is_program() const override { return true; }
 
   offloading::service in(const service_world& world) const override {
-    const program_side own{name(), program_, octets_, times_};
+    const program_side own{name(), program_, octets_, times_,
+                           options.limits.max_latency};
     auto far = own;
     for (const auto& other : world.programs)
       if (other.service == name_)

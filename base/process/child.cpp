@@ -56,8 +56,14 @@ struct prepared_child {
 constexpr int first_other_file = STDERR_FILENO + 1;
 
 void set_limit(int resource, std::uint64_t most, start_failure& failed) {
-  const rlimit both{most, most};
-  if (most > 0 && setrlimit(static_cast<__rlimit_resource>(resource), &both))
+  if (most == 0)
+    return;
+  const auto which = static_cast<__rlimit_resource>(resource);
+  rlimit both{};
+  if (getrlimit(which, &both) == 0) // which nobody may raise
+    both.rlim_max = std::min<rlim_t>(both.rlim_max, most);
+  both.rlim_cur = both.rlim_max;
+  if (setrlimit(which, &both) != 0)
     failed = {start_failure::its_limits, errno};
 }
 
@@ -141,6 +147,10 @@ prepared_child prepare_child(const child_setup& setup,
   if (!file)
     throw input_error{
         fmt::format("there is no program \"{}\".", setup.command.front())};
+  std::error_code failed;
+  const auto whole = fs::absolute(*file, failed);
+  if (failed)
+    refuse_to_start(words.front(), "our own folder", failed.value());
   for (auto** one = environ; *one; ++one) {
     bool is_replaced = false;
     for (const auto& other : setup.environment)
@@ -152,7 +162,7 @@ prepared_child prepare_child(const child_setup& setup,
                    setup.environment.end());
   prepared_child made{.arguments = {},
                       .environment = {},
-                      .file = fs::absolute(*file).string(),
+                      .file = whole.string(),
                       .folder = setup.folder.string(),
                       .cgroup = {},
                       .limits = setup.limits,
@@ -166,6 +176,15 @@ prepared_child prepare_child(const child_setup& setup,
     made.environment.push_back(one.data());
   made.environment.push_back(nullptr);
   return made;
+}
+
+/// @returns the same file under a number that is none of the standard files',
+/// which may be closed here; what the child has of those replaces it there.
+descriptor beside_standard_files(int fd) {
+  descriptor given{fd};
+  if (fd >= first_other_file)
+    return given;
+  return descriptor{fcntl(fd, F_DUPFD_CLOEXEC, first_other_file)};
 }
 
 /// @returns whether a call may be made again that has failed.
@@ -189,10 +208,13 @@ child::child(const child_setup& setup) {
   std::array<int, 2> fds{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, fds.data()) != 0)
     refuse_to_start(words.front(), "a socket", errno);
-  both_ends talk{descriptor{fds[0]}, descriptor{fds[1]}};
+  both_ends talk{beside_standard_files(fds[0]), beside_standard_files(fds[1])};
   if (pipe2(fds.data(), O_CLOEXEC) != 0)
     refuse_to_start(words.front(), "a pipe", errno);
-  both_ends report{descriptor{fds[0]}, descriptor{fds[1]}};
+  both_ends report{beside_standard_files(fds[0]),
+                   beside_standard_files(fds[1])};
+  if (!talk.ours || !talk.its || !report.ours || !report.its)
+    refuse_to_start(words.front(), "a file", errno);
   fcntl(talk.ours.get(), F_SETFL, O_NONBLOCK);
   pid_ = fork();
   if (pid_ < 0)
@@ -214,8 +236,9 @@ child::child(const child_setup& setup) {
 }
 
 child::~child() {
-  if (!end_ && pid_ > 0) {
-    kill(-pid_, SIGKILL);
+  socket_ = {};
+  if (pid_ > 0 && !poll_end()) {
+    kill_now();
     reap();
   }
 }
@@ -239,14 +262,18 @@ std::optional<std::size_t> child::read_some(std::span<std::byte> into) {
 }
 
 bool child::wait(bool to_write, clock::time_point until) const {
+  constexpr std::chrono::hours longest_poll{1}; // it counts ms in an int
   for (;;) {
-    const auto left =
-        std::chrono::ceil<std::chrono::milliseconds>(until - clock::now());
+    const auto left = std::min<std::chrono::milliseconds>(
+        std::chrono::ceil<std::chrono::milliseconds>(until - clock::now()),
+        longest_poll);
     pollfd one{socket_.get(),
                static_cast<short>(to_write ? POLLIN | POLLOUT : POLLIN), 0};
     const auto ready =
         poll(&one, 1, static_cast<int>(std::max<long>(left.count(), 0)));
-    if (ready != -1 || errno != EINTR)
+    const auto again =
+        ready == 0 ? clock::now() < until : ready == -1 && errno == EINTR;
+    if (!again)
       return ready != 0;
   }
 }
@@ -274,12 +301,24 @@ child_end child::stop(std::chrono::milliseconds grace) {
   socket_ = {};
   if (poll_end())
     return *end_;
-  kill(-pid_, SIGTERM);
+  send_signal(SIGTERM);
   if (!await_end(grace)) {
-    kill(-pid_, SIGKILL);
+    kill_now();
     reap();
   }
   return *end_;
+}
+
+void child::kill_now() {
+  if (!end_)
+    send_signal(SIGKILL);
+}
+
+/// A child may have left its group for another one.
+void child::send_signal(int number) const {
+  assert(pid_ > 0 && !end_);
+  kill(-pid_, number);
+  kill(pid_, number);
 }
 
 /// Its number is its own until it is reaped, and so is that of its group: what
@@ -287,16 +326,19 @@ child_end child::stop(std::chrono::milliseconds grace) {
 child_end child::reap() {
   assert(pid_ > 0 && !end_);
   siginfo_t found{};
-  while (waitid(P_PID, static_cast<id_t>(pid_), &found, WEXITED | WNOWAIT) != 0
-         && errno == EINTR) {
-  }
+  int looked = 0;
+  do
+    looked = waitid(P_PID, static_cast<id_t>(pid_), &found, WEXITED | WNOWAIT);
+  while (looked != 0 && errno == EINTR);
+  end_.emplace();
+  if (looked != 0) // somebody else has reaped it: the number may be another's
+    return *end_;
   kill(-pid_, SIGKILL);
   int status = 0;
   pid_t reaped = 0;
   do
     reaped = waitpid(pid_, &status, 0);
   while (reaped < 0 && errno == EINTR);
-  end_.emplace();
   if (reaped == pid_ && WIFEXITED(status))
     end_->code = WEXITSTATUS(status);
   if (reaped == pid_ && WIFSIGNALED(status))
@@ -356,6 +398,28 @@ std::optional<fs::path> find_program(std::string_view name,
     left.remove_prefix(end + 1);
   }
   return std::nullopt;
+}
+
+std::vector<command_file> command_files(const std::vector<std::string>& words,
+                                        const fs::path& folder) {
+  std::vector<command_file> all;
+  const auto add = [&](const std::string& name) {
+    std::error_code ignored;
+    const auto is_known = std::ranges::any_of(
+        all, [&](const auto& x) { return !x.is_sought && x.name == name; });
+    if (!name.empty() && !is_known
+        && fs::is_regular_file(folder / name, ignored))
+      all.push_back({name, folder / name});
+  };
+  if (!words.empty() && words.front().find('/') == std::string::npos)
+    if (const auto program = find_program(words.front(), folder))
+      all.push_back({words.front(), *program, true});
+  for (const auto& word : words) {
+    add(word);
+    if (const auto equals = word.find('='); equals != word.npos)
+      add(word.substr(equals + 1));
+  }
+  return all;
 }
 
 } // namespace sofof

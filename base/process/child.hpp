@@ -17,7 +17,8 @@
 
 namespace sofof {
 
-/// What the system lets a child have; 0: no limit.
+/// What the system lets a child have, if it does not let us have less; 0: no
+/// limit.
 struct child_limits {
   std::uint64_t memory_octets = 0; ///< Of address space: RLIMIT_AS.
   std::uint64_t cpu_s = 0;         ///< In its whole life: RLIMIT_CPU.
@@ -92,7 +93,11 @@ public:
   /// ended after this time.
   child_end stop(std::chrono::milliseconds grace);
 
+  /// Kills it and its group, without waiting for their end.
+  void kill_now();
+
 private:
+  void send_signal(int number) const;
   child_end reap();
 
   pid_t pid_ = -1;
@@ -111,5 +116,19 @@ std::vector<std::string> command_words(std::string_view text);
 /// nullopt if there is none that may be executed.
 std::optional<std::filesystem::path>
 find_program(std::string_view name, const std::filesystem::path& folder);
+
+/// A file that makes what a command does.
+struct command_file {
+  std::string name; ///< As the command has it.
+  std::filesystem::path at;
+  bool is_sought = false; ///< In PATH; else it is named from the folder on.
+};
+
+/// @param words   Of the command.
+/// @param folder  It runs there.
+/// @returns its program, if that is there, and what its words name of files:
+/// each word, and what is behind a "=" in one. Each once.
+std::vector<command_file> command_files(const std::vector<std::string>& words,
+                                        const std::filesystem::path& folder);
 
 } // namespace sofof

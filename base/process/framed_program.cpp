@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <utility>
@@ -13,6 +14,9 @@ namespace {
 
 /// Steps that a program does not read; each has a header.
 constexpr std::size_t most_waiting = 4096;
+
+/// It is seen that a program has ended, whoever has its files open.
+constexpr std::chrono::milliseconds between_looks{50};
 
 std::span<const std::byte> octets_of(std::string_view text) {
   return std::as_bytes(std::span{text.data(), text.size()});
@@ -39,6 +43,12 @@ bool framed_program::is_ready(clock::time_point until) {
 void framed_program::look() {
   write_waiting();
   read_some();
+  // It may have ended though others still have its files open.
+  if (const auto end = has_answered() ? std::nullopt : child_.poll_end()) {
+    read_some(); // what it had sent before
+    if (!has_answered() && objection_.empty())
+      objection_ = end->in_words();
+  }
 }
 
 void framed_program::tell(frame_kind kind, std::int64_t time_ns,
@@ -59,14 +69,20 @@ framed_program::exchange(std::int64_t time_ns, std::uint64_t number,
   if (!objection_.empty())
     return std::nullopt;
   newest_ = number;
-  answer_.reset();
+  is_asked_ = true;
   append_frame(waiting_, frame_kind::input, time_ns, number, input);
-  for (look(); !answer_ && objection_.empty(); look())
-    if (clock::now() >= until || !child_.wait(!waiting_.empty(), until))
+  for (look(); !has_answered() && objection_.empty(); look()) {
+    const auto now = clock::now();
+    if (now >= until)
       objection_ = "did not answer in time";
-  if (!answer_ || answer_->kind != frame_kind::result)
+    else
+      child_.wait(!waiting_.empty(), std::min(until, now + between_looks));
+  }
+  is_asked_ = false;
+  const auto answer = std::exchange(answer_, std::nullopt);
+  if (!answer || answer->kind != frame_kind::result)
     return std::nullopt;
-  return std::move(answer_->octets);
+  return std::move(answer->octets);
 }
 
 void framed_program::shut_down(std::int64_t time_ns,
@@ -80,8 +96,12 @@ void framed_program::shut_down(std::int64_t time_ns,
 void framed_program::write_waiting() {
   while (!waiting_.empty() && objection_.empty()) {
     const auto count = child_.write_some(waiting_);
-    if (!count)
-      return object_to_end("closed its input");
+    if (!count) {
+      read_some(); // what it has sent before
+      if (!has_answered() && objection_.empty())
+        object_to_end("closed its input");
+      return;
+    }
     if (*count == 0)
       return;
     waiting_.erase(waiting_.begin(),
@@ -89,12 +109,15 @@ void framed_program::write_waiting() {
   }
 }
 
-/// At most a few blocks, if it sends without end.
+/// At most a few blocks, if it sends without end. What is behind an answer is
+/// read with the next look: whether it is there already is a matter of chance.
 void framed_program::read_some() {
   constexpr std::size_t block = 64 * 1024;
   constexpr int most_blocks = 16;
   std::array<std::byte, block> some;
-  for (int k = 0; k < most_blocks && objection_.empty(); ++k) {
+  take_frames(); // that came with an answer
+  for (int k = 0; k < most_blocks && objection_.empty() && !has_answered();
+       ++k) {
     const auto count = child_.read_some(some);
     if (!count)
       return object_to_end("closed its output");
@@ -105,18 +128,22 @@ void framed_program::read_some() {
   }
 }
 
-/// Answers to earlier inputs come too late.
+/// Answers to earlier inputs come too late, and of several to one the first
+/// counts.
 void framed_program::take_frames() {
-  while (auto frame = parser_.next()) {
+  while (!has_answered() && objection_.empty()) {
+    auto frame = parser_.next();
+    if (!frame)
+      break;
     if (frame->kind == frame_kind::ready)
       is_ready_ = true;
-    else if (frame->number == newest_)
+    else if (is_asked_ && frame->number == newest_)
       answer_ = std::move(*frame);
     else if (frame->number > newest_)
       objection_ = fmt::format("answered input {}, which it was not given",
                                frame->number);
   }
-  if (objection_.empty())
+  if (!has_answered() && objection_.empty())
     objection_ = parser_.objection();
 }
 

@@ -45,8 +45,9 @@ public:
 
   /// Gives it an input and waits for the answer.
   /// @param number  Higher than those before.
-  /// @returns its result; nullopt if the program says that there is none, or
-  /// if there is an objection.
+  /// @returns its result, the first one; nullopt if the program says that there
+  /// is none, or if there is an objection. What it does after its answer is
+  /// found out later.
   std::optional<std::vector<std::byte>>
   exchange(std::int64_t time_ns, std::uint64_t number,
            std::span<const std::byte> input, clock::time_point until);
@@ -56,6 +57,7 @@ public:
   void shut_down(std::int64_t time_ns, std::chrono::milliseconds grace);
 
 private:
+  bool has_answered() const { return answer_.has_value(); }
   void write_waiting();
   void read_some();
   void take_frames();
@@ -66,7 +68,8 @@ private:
   std::vector<std::byte> waiting_; // to be written
   bool is_ready_ = false;
   std::uint64_t newest_ = 0;            // input that it was given
-  std::optional<program_frame> answer_; // to that one
+  bool is_asked_ = false;               // its answer is waited for
+  std::optional<program_frame> answer_; // to that one, the first
   std::string objection_;
 };
 

@@ -73,7 +73,8 @@ kept_program::exchange(time_point now, std::span<const std::byte> input) {
                                 clock::now() + setup_.answer_limit);
   if (result)
     pause_ = setup_.first_pause;
-  note_death(now);
+  else
+    note_death(now);
   return result;
 }
 

@@ -8,13 +8,17 @@
 #include <array>
 #include <csignal>
 #include <cstdlib>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
+#include <unistd.h>
 #include <vector>
 
 namespace sofof::child_test {
@@ -97,6 +101,81 @@ TEST_CASE("a child that does not end when it is asked to is killed") {
   child obedient{shell("trap 'exit 4' TERM; echo ready; while :; do :; done")};
   REQUIRE(obedient.wait(false, child::clock::now() + 10s));
   CHECK(obedient.stop(10s).code == 4);
+}
+
+TEST_CASE("a child that has left its process group is ended like any other") {
+  const auto leaves = [] {
+    child_setup setup;
+    setup.command = {SOFOF_ODD_PROGRAM, "leaves_its_group"};
+    auto made = std::make_unique<child>(setup);
+    REQUIRE(made->wait(false, child::clock::now() + 10s));
+    REQUIRE(getpgid(made->id()) != made->id());
+    return made;
+  };
+  CHECK(leaves()->stop(50ms).signal == SIGKILL);
+  auto killed = leaves();
+  killed->kill_now();
+  CHECK(killed->stop(10s).signal == SIGKILL);
+  leaves().reset(); // returns
+}
+
+TEST_CASE("a child starts also where standard files are closed") {
+  const descriptor kept{fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 3)};
+  close(STDIN_FILENO);
+  {
+    child echo{shell("read line; echo \"got $line\"")};
+    const std::string line = "one\n";
+    CHECK(echo.write_some(std::as_bytes(std::span{line})) == line.size());
+    CHECK(all_of(echo) == "got one\n");
+  }
+  if (kept)
+    dup2(kept.get(), STDIN_FILENO);
+}
+
+TEST_CASE("a child that somebody else reaps has ended, too") {
+  const auto before = signal(SIGCHLD, SIG_IGN);
+  child gone{shell("exit 3")};
+  for (int k = 0; k < 10'000 && !gone.poll_end(); ++k)
+    std::this_thread::sleep_for(1ms);
+  signal(SIGCHLD, before);
+  CHECK(gone.poll_end());
+}
+
+TEST_CASE("a command names its program and what its words say of files") {
+  const auto found = [](std::string_view command) {
+    std::string names;
+    for (const auto& file : command_files(command_words(command), "/etc"))
+      names += file.name + (file.is_sought ? " in PATH, " : ", ");
+    return names;
+  };
+  CHECK(found("sh passwd --weights=group --other=none group")
+        == "sh in PATH, passwd, group, ");
+  CHECK(found("/bin/sh -c x") == "/bin/sh, ");
+  CHECK(found("no_such_program .") == "");
+  CHECK(found("") == "");
+}
+
+TEST_CASE("a child has no more than we may have ourselves") {
+  const auto starter = fork();
+  REQUIRE(starter >= 0);
+  if (starter == 0) { // what it lowers stays low
+    const rlimit both{500, 500};
+    auto much = shell("ulimit -t");
+    much.limits.cpu_s = 1000;
+    child one{much};
+    const auto before = all_of(one);
+    setrlimit(RLIMIT_CPU, &both);
+    child other{much};
+    _exit(before == "1000\n" && all_of(other) == "500\n" ? 0 : 1);
+  }
+  int status = -1;
+  CHECK(waitpid(starter, &status, 0) == starter);
+  CHECK(status == 0);
+}
+
+TEST_CASE("a wait may be as long as time is") {
+  child late{shell("sleep 0.05; echo here")};
+  CHECK(late.wait(false, child::clock::time_point::max()));
 }
 
 TEST_CASE("what a child has started ends with it") {

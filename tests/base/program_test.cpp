@@ -121,6 +121,34 @@ TEST_CASE("a program that dies is there again after a pause, and as it was") {
   CHECK(mortal.news == "was ended by signal 9 (Killed). there. ");
 }
 
+TEST_CASE("a result counts, whatever the program does behind it") {
+  for (const auto* what : {"answers_and_exits", "answers_and_babbles"})
+    for (int k = 0; k < 20; ++k) {
+      kept last{{what, "1"}};
+      last.start();
+      CHECK(last.ask("one") == "one");
+      CHECK(last.ask("two") == "two");
+      CHECK(last.news.empty());
+      CHECK(last.ask("three") == "nothing");
+      CHECK_FALSE(last.news.empty());
+    }
+  kept twice{{"answers_twice", "1"}};
+  twice.start();
+  for (const auto* text : {"one", "two", "three", "four"})
+    CHECK(twice.ask(text) == text);
+  CHECK(twice.news.empty());
+}
+
+TEST_CASE("a program has ended also when others have its files open") {
+  kept parent{{"leaves_another", "1"}};
+  parent.start();
+  CHECK(parent.ask("one") == "one");
+  const auto start = std::chrono::steady_clock::now();
+  CHECK(parent.ask("two") == "nothing");
+  CHECK(std::chrono::steady_clock::now() - start < 5s);
+  CHECK(parent.news == "exited with 4. ");
+}
+
 TEST_CASE("a program that has been started before is taken as it is") {
   kept ready{{"tells_its_process"}};
   auto started = start_program(ready.setup);

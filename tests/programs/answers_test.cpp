@@ -112,7 +112,7 @@ TEST_CASE_FIXTURE(local_question, "where a service runs it may stay, though "
 
 TEST_CASE_FIXTURE(local_question, "what is wrong with an answer is said of the "
                                   "member that is wrong") {
-  constexpr std::array<std::array<const char*, 2>, 18> wrong{{
+  constexpr std::array<std::array<const char*, 2>, 20> wrong{{
       {"", "must be a JSON object"},
       {R"({"n":7,"do":"stay")", "must be a JSON object"},
       {R"(7)", "must be a JSON object"},
@@ -121,6 +121,9 @@ TEST_CASE_FIXTURE(local_question, "what is wrong with an answer is said of the "
       {R"({"n":7.0,"do":"stay"})", "\"n\" must be a whole number"},
       {R"({"n":7,"do":"fly"})", "\"do\" must be \"stay\""},
       {R"({"n":7,"do":"stay","do":"stay"})", "\"do\" only once"},
+      {R"({"n":7,"do":"stay","\u001b[2J\u009bx":1})",
+       "\"?[2J??x\" is unknown here"},
+      {R"({"n":7,"\u001b[2J":1,"\u001b[2J":1})", "\"?[2J\" only once"},
       {R"({"n":7,"do":"stay","whi":"x"})", "\"whi\" is unknown"},
       {R"({"n":7,"do":"stay","provider":65537})", "\"provider\" is unknown"},
       {R"({"n":7,"do":"run_at"})", "must have \"provider\""},

@@ -1,4 +1,6 @@
 // Vehicles that serve others.
+#include "scenario/build.hpp"
+#include "scenario/registry.hpp"
 #include "tests/scenario/example.hpp"
 #include "tests/scenario/whole_run.hpp"
 
@@ -64,6 +66,28 @@ TEST_CASE("the first vehicle of a fleet is a provider, after those that "
   REQUIRE(both.providers.size() == 7);
   CHECK(both.providers[0].name == "mec");
   CHECK(both.providers[6].name == "car_106");
+}
+
+TEST_CASE("who drives a vehicle that provides runs its provider, and finds the "
+          "one that stands without its name") {
+  const auto both =
+      load_scenario(SOFOF_SOURCE_DIR "/config/ulm_lehr.toml",
+                    std::vector<std::string>{"fleet.0.provide.cars=first",
+                                             "fleet.0.provide.name=car"});
+  REQUIRE(both.providers.size() == 2);
+  process_share here;
+  here.provides = [](std::size_t) { return false; };
+  here.drives = [&](station_id x) {
+    return x == both.providers[1].carrier->station;
+  };
+  CHECK_FALSE(lives_here(both, here, 0));
+  CHECK(lives_here(both, here, 1));
+  here.drives = [](station_id) { return false; };
+  CHECK_FALSE(lives_here(both, here, 1));
+  drive_options unnamed;
+  unnamed.registry.emplace();
+  unnamed.providers.push_back({});
+  CHECK(wanted_providers(both, unnamed).size() == 1);
 }
 
 TEST_CASE("a scenario with vehicles that provide is printed as it was "

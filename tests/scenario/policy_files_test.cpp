@@ -92,6 +92,17 @@ TEST_CASE_FIXTURE(own_folder, "a program that cannot be started is refused "
        {"did you mean \"command\"?"});
 }
 
+TEST_CASE_FIXTURE(own_folder, "a program of PATH counts for its runs, and is "
+                              "not copied") {
+  const auto s =
+      load("lodm = { name = \"process\", command = \"cat town.toml\" }");
+  REQUIRE(s.policies.files.size() == 2);
+  CHECK(s.policies.files[0].key.starts_with("lodm cat "));
+  CHECK(s.policies.files[0].copy.empty());
+  CHECK(s.policies.files[1].key.starts_with("lodm town.toml "));
+  CHECK(s.policies.files[1].copy == "lodm_program/town.toml");
+}
+
 TEST_CASE_FIXTURE(own_folder, "who only looks at a run needs no program") {
   const auto s = parse_scenario(
       std::string{town}

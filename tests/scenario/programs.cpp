@@ -1,8 +1,10 @@
 // Services whose functions are programs, in whole runs of virtual time.
+#include "actors/services/programs/input_source.hpp"
 #include "scenario/load.hpp"
 #include "tests/scenario/whole_run.hpp"
 #include "tests/support/contains.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/on_air.hpp"
 #include "tests/support/scratch.hpp"
 
 #include <doctest/doctest.h>
@@ -236,6 +238,47 @@ TEST_CASE("what programs and pictures hold is known, and told apart") {
   CHECK(one == texts());
   test::write_text(script, "two");
   CHECK(one != texts());
+  for (const auto& text : one)
+    CHECK(text.size() < 100); // no contents
+}
+
+TEST_CASE("what a program is given behind a = counts for its runs") {
+  const test::scratch folder;
+  const auto weights = folder.path() / "weights";
+  const auto texts = [&] {
+    return scenario::load_scenario(
+               file, std::vector{fmt::format(
+                         "service.object_detection.command=\"sh --w={}\"",
+                         weights.string())})
+        .program_texts;
+  };
+  test::write_text(weights, "one");
+  const auto one = texts();
+  test::write_text(weights, "two");
+  CHECK(one != texts());
+}
+
+TEST_CASE("a program is told of the nearest objects when there are too many") {
+  actors::vehicle_view view{{.where = test::in_ulm()}};
+  actors::vehicle_look look;
+  look.own.station = 101;
+  look.own.at = look.seen.at = time_point{1s};
+  for (int k = 200; k > 0; --k)
+    look.seen.objects.push_back(
+        {.centre = {0.5 * k, 3}, .length_m = 4.5, .width_m = 1.8});
+  view.see(look);
+  const auto source = actors::make_input_source("cpm");
+  const auto octets = source->next(view, 101, 0);
+  REQUIRE_FALSE(octets.empty());
+  messages::its_pdu pdu;
+  pdu.octets.assign(octets.begin(), octets.end());
+  const auto message = test::message_in<messages::etsi::tr103562::cpm>(pdu);
+  REQUIRE(message);
+  const auto read = messages::read_cpm(*message, *test::in_ulm(), look.own.at);
+  REQUIRE(read);
+  CHECK(read->objects.size() == 128);
+  for (const auto& x : read->objects)
+    CHECK(x.centre.x_m < 64.5);
 }
 
 } // namespace sofof::programs_test

@@ -47,6 +47,24 @@ std::optional<octets> answer(const std::string& what,
   if (what == "eats")
     for (;;)
       std::memset(std::malloc(much), 1, much);
+  if (what == "answers_twice") {
+    service_program::detail::send(17, {0, x.number, {}}, x.what);
+    return octets{'2'};
+  }
+  if (what == "answers_and_exits") {
+    service_program::detail::send(17, {0, x.number, {}}, x.what);
+    std::exit(3);
+  }
+  if (what == "answers_and_babbles") {
+    service_program::detail::send(17, {0, x.number, {}}, x.what);
+    write_text("Segmentation fault, or whatever it prints by mistake");
+    std::exit(3);
+  }
+  if (what == "leaves_another") {
+    if (fork() == 0)
+      stand_still(); // with its standard files
+    std::exit(4);
+  }
   if (what == "has_none")
     return std::nullopt;
   if (what == "is_slow")
@@ -63,7 +81,12 @@ std::optional<octets> answer(const std::string& what,
 int main(int count, char** words) {
   const std::string what = count > 1 ? words[1] : "";
   const auto after = count > 2 ? std::strtoull(words[2], nullptr, 10) : 0;
-  if (what == "never_ready")
+  if (what == "leaves_its_group") {
+    setpgid(0, getpgid(getppid()));
+    std::signal(SIGTERM, SIG_IGN);
+    write_text("it has left");
+  }
+  if (what == "never_ready" || what == "leaves_its_group")
     stand_still();
   if (what == "ends_at_once")
     return 3;

@@ -2,6 +2,8 @@
 #include "actors/services/programs/input_source.hpp"
 
 #include "base/files/regular_file.hpp"
+#include "base/geometry.hpp"
+#include "messages/v2x/cpm_rules.hpp"
 #include "messages/v2x/encoded.hpp"
 #include "messages/v2x/perception.hpp"
 
@@ -19,6 +21,9 @@ namespace fs = std::filesystem;
 namespace {
 
 using input_octets = std::vector<std::byte>;
+
+/// All pictures of a folder are kept.
+constexpr std::size_t most_of_a_camera = std::size_t{256} << 20;
 
 input_octets as_octets(std::string_view text) {
   const auto all = std::as_bytes(std::span{text.data(), text.size()});
@@ -47,18 +52,25 @@ public:
     files_.clear();
     frames_.clear();
     std::error_code failed;
-    for (const auto& entry : fs::directory_iterator{folder, failed})
-      if (entry.path().extension() == ".jpg")
-        files_.push_back(entry.path());
+    for (fs::directory_iterator entry{folder, failed}, end;
+         !failed && entry != end; entry.increment(failed))
+      if (entry->path().extension() == ".jpg")
+        files_.push_back(entry->path());
     std::ranges::sort(files_);
     if (failed || files_.empty())
       throw std::invalid_argument{
           fmt::format("there are no .jpg files in {}", folder.string())};
+    std::size_t octets = 0;
     for (const auto& file : files_) {
       const auto content = read_regular_file(file, most);
       if (!content.refusal.empty())
         throw std::invalid_argument{fmt::format(
             "the file {} cannot be read: {}", file.string(), content.refusal)};
+      octets += content.text.size();
+      if (octets > most_of_a_camera)
+        throw std::invalid_argument{
+            fmt::format("the .jpg files in {} have more than {} octets in all",
+                        folder.string(), most_of_a_camera)};
       frames_.push_back(as_octets(content.text));
     }
   }
@@ -78,6 +90,20 @@ private:
   std::vector<input_octets> frames_;
 };
 
+/// @returns what it sees, in that order; of more objects than a CPM takes the
+/// nearest ones, these first.
+std::vector<world::perceived_object> nearest(const vehicle_look& look) {
+  constexpr auto most = messages::cpm_trigger::most_objects;
+  auto all = look.seen.objects;
+  if (all.size() <= most)
+    return all;
+  std::ranges::stable_sort(all, {}, [&](const auto& x) {
+    return distance_m(x.centre, look.own.position);
+  });
+  all.resize(most);
+  return all;
+}
+
 /// A CPM of all that the vehicle sees, as it would send it.
 class cpm_input final : public input_source {
 public:
@@ -89,11 +115,11 @@ public:
     if (look.own.station == station_id{0})
       return {};
     std::vector<messages::known_object> objects;
-    for (const auto& x : look.seen.objects)
+    for (const auto& x : nearest(look))
       objects.push_back({static_cast<std::uint32_t>(objects.size()), x});
     const auto& how = view.how();
-    const messages::perceived_scene scene{look.own, look.seen.at, objects,
-                                          objects.size(), &how.sensor};
+    const messages::perceived_scene scene{
+        look.own, look.seen.at, objects, look.seen.objects.size(), &how.sensor};
     const auto message =
         how.is_release_2 ? messages::encoded(
             messages::make_cpm_ts103324(scene, how.car, *how.where))

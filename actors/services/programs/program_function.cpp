@@ -19,6 +19,8 @@ program_function::run(time_point now, const messages::service_input& input) {
   const auto given = input.what.as<program_octets>();
   if (!given || given->octets.size() > whose_.most_input_octets)
     return {};
+  if (!whose_.is_virtual && now - input.at > whose_.oldest_input)
+    return {}; // many wait behind it, where the program is too slow for all
   auto result = program_.exchange(now, given->octets);
   if (!result)
     return {};

@@ -25,6 +25,9 @@ struct program_session {
   /// Computing times of cycles, in turn; empty: none was measured.
   std::shared_ptr<const std::vector<duration>> run_times{};
   bool is_virtual = false; ///< The time of the run.
+  /// On the wall clock: nobody has a use for results of older inputs, so the
+  /// program is not given them.
+  duration oldest_input = duration::max();
 };
 
 /// One process for each function, with the life cycle of the function. Where

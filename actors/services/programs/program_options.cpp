@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <string_view>
 
 namespace sofof::actors {
 
@@ -34,9 +35,14 @@ void program_options::visit_options(option_visitor& s) {
   s.field("nice", nice, {0, 19});
   if (s.has("cgroup", !cgroup.empty()))
     s.field("cgroup", cgroup);
-  s.field("start_limit", start_limit, 1ms);
-  s.field("answer_limit", answer_limit, 1ms);
-  s.field("restart_pause", restart_pause, 1ms);
+  const auto limit = [&](std::string_view key, duration& value) {
+    s.field(key, value, 1ms);
+    if (value > 1h) // beyond, sums of times have no room
+      s.refuse(key, "must not be more than \"1h\".");
+  };
+  limit("start_limit", start_limit);
+  limit("answer_limit", answer_limit);
+  limit("restart_pause", restart_pause);
   s.field("spares", spares, {0, 64});
 }
 
@@ -54,15 +60,9 @@ void program_options::locate(const fs::path& beside) {
 }
 
 std::vector<fs::path> program_options::files() const {
-  const auto words = command_words(command);
   std::vector<fs::path> all;
-  if (const auto program = find_program(words.front(), folder))
-    all.push_back(*program);
-  for (std::size_t k = 1; k < words.size(); ++k) {
-    std::error_code ignored;
-    if (fs::is_regular_file(folder / words[k], ignored))
-      all.push_back(folder / words[k]);
-  }
+  for (const auto& file : command_files(command_words(command), folder))
+    all.push_back(file.at);
   return all;
 }
 

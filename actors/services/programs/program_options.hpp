@@ -33,8 +33,8 @@ struct program_options {
   /// @throws std::invalid_argument if there is no such program.
   void locate(const std::filesystem::path& beside);
 
-  /// @returns the files that make what it computes: the program itself and
-  /// those words of its command that are files. Precondition: it was located.
+  /// @returns the files that make what it computes, as `command_files` finds
+  /// them. Precondition: it was located.
   std::vector<std::filesystem::path> files() const;
 
   /// @param configuration  Lines KEY=VALUE.

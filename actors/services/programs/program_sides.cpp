@@ -36,6 +36,7 @@ make_program_function(const program_side& what, kept_setup setup,
   whose.most_input_octets =
       static_cast<std::size_t>(what.octets.most_input_octets);
   whose.run_times = what.run_times;
+  whose.oldest_input = what.oldest_input;
   whose.about.station = station;
   whose.about.service = what.service;
   return std::make_shared<program_function>(std::move(setup), std::move(whose));

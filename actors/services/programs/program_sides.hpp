@@ -28,6 +28,7 @@ struct program_side {
   octet_bounds octets;
   /// Computing times of cycles, as they were measured; null: none were.
   std::shared_ptr<const std::vector<duration>> run_times{};
+  duration oldest_input = duration::max(); ///< As `program_session` has it.
 };
 
 std::shared_ptr<offloading::vehicle_service>
