@@ -177,6 +177,8 @@ void provider::on_cam(const messages::cam& c, peer_id from, time_point now) {
 void provider::on_ride(const messages::cam& carrier, time_point now) {
   pass(now);
   assert(setup_.reach_m);
+  assert(!carrier_ || *carrier_ == carrier.station);
+  assert(std::isfinite(carrier.speed_mps));
   carrier_ = carrier.station;
   setup_.position = carrier.position;
   const point ahead{std::cos(carrier.heading_rad),
@@ -266,6 +268,8 @@ void provider::offer(station_record& station, time_point now) {
   if (idle.empty() && !setup_.reach_m)
     return;
   station.next_offer = now + protocol::offer_period;
+  assert(station.requester);
+  assert(station.next_offer > now);
   const messages::service_offer made{
       .provider = setup_.id,
       .position = setup_.position,
@@ -283,6 +287,7 @@ void provider::offer(station_record& station, time_point now) {
 std::optional<messages::provider_motion> provider::motion() const {
   if (!setup_.reach_m)
     return std::nullopt;
+  assert(*setup_.reach_m > 0);
   return messages::provider_motion{area_.velocity_mps(), *setup_.reach_m};
 }
 

@@ -67,6 +67,7 @@ void service_cycle::on_step(messages::lifecycle_step step, time_point now) {
   stop_timer();
   if (state_ == messages::lifecycle_state::finalized)
     end_last();
+  assert(setup_.function);
   setup_.function->on_step(step, now);
   if (state_ == messages::lifecycle_state::active)
     begin(now);
@@ -78,6 +79,7 @@ void service_cycle::on_input(const messages::service_input& input,
   if (input.at < newest_.at)
     return; // overtaken on its way
   newest_ = input;
+  assert(newest_.at == input.at);
   if (waits_for_input())
     stop_timer();
   if (state_ != messages::lifecycle_state::active) {
@@ -147,6 +149,7 @@ void service_cycle::run(time_point now, bool is_besides) {
   // A call off the grid may run one cycle more than the grid has by then.
   const auto cycle =
       std::max(on_grid, is_called ? after_any_ : after_off_grid_);
+  assert(cycle >= on_grid);
   const auto is_ahead = cycle > on_grid + 1 + (is_besides ? 1 : 0);
   if (newest_.what.empty() || is_ahead)
     return;

@@ -29,6 +29,7 @@ point known_provider::position(time_point now) const {
   const auto since = now - offer.created.value_or(offered_at);
   const auto passed =
       std::clamp(since, duration{0}, duration{protocol::offer_validity});
+  assert(passed >= duration{0});
   return offer.position + to_seconds(passed) * offer.moves->velocity_mps;
 }
 

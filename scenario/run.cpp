@@ -43,8 +43,7 @@ constexpr duration wall_slice = 100ms;
 constexpr double flush_every_s = 2;
 constexpr double flush_every_real_s = 0.5;
 
-/// Accounts of computing time begin so late: roads are got ready and rooms
-/// filled once, at the start.
+/// Accounts of computing time begin so late: roads are got ready once.
 constexpr duration settling = 1s;
 
 /// @returns the name of the copy of a provider's own map in a results folder.
@@ -295,22 +294,6 @@ void tell_addresses(const stage& on) {
     on.console << "live page: " << on.live->address() << std::endl;
 }
 
-deciding_sides deciding_in(const scenario_definition& s,
-                           const process_share& here) {
-  deciding_sides sides{false, false};
-  for (const auto& v : place_vehicles(s))
-    sides.lodm = sides.lodm || here.drives(v.station);
-  for (std::size_t k = 0; k < s.providers.size(); ++k)
-    sides.codm = sides.codm || lives_here(s, here, k);
-  return sides;
-}
-
-/// @returns the scenario as it is to be built for those who look on.
-scenario_definition with_tracks(scenario_definition s, const live_view* live) {
-  s.record.tracks = s.record.tracks || live; // which nobody writes
-  return s;
-}
-
 /// From the first actor to the last.
 /// @param on_start  Called once all are there; a run that it refuses has not
 ///                  begun.
@@ -321,7 +304,8 @@ played play(const scenario_definition& s, process_share here, runtime& time,
             const std::shared_ptr<recording::locked_results>& keeper, stage& on,
             const std::function<void(const world_actors&)>& on_start,
             bool& has_begun) {
-  auto timed = with_tracks(s, on.live);
+  auto timed = s;
+  timed.record.tracks = s.record.tracks || on.live; // which nobody writes
   std::optional<deciding_times> deciding;
   if (on.options.time_decisions)
     deciding = add_timers(timed.policies);

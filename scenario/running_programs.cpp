@@ -1,6 +1,7 @@
 // From options of policies to programs that run.
 #include "scenario/running_programs.hpp"
 
+#include "scenario/placement.hpp"
 #include "scenario/policy_files.hpp"
 
 #include <fmt/format.h>
@@ -64,6 +65,16 @@ const std::string& this_process() {
 }
 
 } // namespace
+
+deciding_sides deciding_in(const scenario_definition& s,
+                           const process_share& here) {
+  deciding_sides sides{false, false};
+  for (const auto& v : place_vehicles(s))
+    sides.lodm = sides.lodm || here.drives(v.station);
+  for (std::size_t k = 0; k < s.providers.size(); ++k)
+    sides.codm = sides.codm || lives_here(s, here, k);
+  return sides;
+}
 
 running_programs::running_programs(scenario_definition& s,
                                    deciding_sides here) {

@@ -1,6 +1,7 @@
 // The programs that decide in a run, as long as it lasts.
 #pragma once
 
+#include "scenario/build.hpp"
 #include "scenario/scenario.hpp"
 
 #include "programs/policy_program.hpp"
@@ -17,6 +18,10 @@ struct deciding_sides {
   bool lodm = true;
   bool codm = true;
 };
+
+/// @returns those that the vehicles and providers of this process are on.
+deciding_sides deciding_in(const scenario_definition& s,
+                           const process_share& here);
 
 /// Starts the programs that policies name, and ends them in time.
 class running_programs {

@@ -140,7 +140,7 @@ TEST_CASE("mutated files are taken or refused, and do no harm") {
       const auto reach = static_cast<double>(
           k % 2 ? wrong.size() : std::min<std::size_t>(wrong.size(), 200));
       const auto at = static_cast<std::size_t>(random.between(0, reach - 1));
-      wrong[at] = static_cast<char>(random.between(0, 256));
+      wrong[at] = static_cast<char>(random.between(-128, 128));
       if (const auto why = restore_from(wrong, *lodm))
         REQUIRE(!why->empty());
     }

@@ -134,7 +134,7 @@ TEST_CASE("one command runs broker, provider and cars, and ends them all") {
   const auto summary = summary_of(at / "loop/cars");
   check_safe(summary);
   CHECK(summary["episodes"] == 3);
-  CHECK(summary_of(at / "loop/provider_mec")["interrupted"] == true);
+  CHECK(summary_of(at / "loop/provider_mec").contains("wall_s"));
   CHECK(contains(read_file(at / "loop/broker.log"), "listens on"));
   const auto again = at.run_sofof({"sil", scenario_file, "--out", "loop"});
   CHECK(again.code == 2);

@@ -24,7 +24,7 @@ TEST_CASE("a provider of another version refuses, and both are named") {
   provider_process provider{at, "provider", {}};
   check_refused(at.run_sofof(drive_words("drive", provider.port(),
                                          {"--test-protocol", "9"})),
-                {"provider mec", "refuses", "protocol 9 ", "protocol 10 ",
+                {"provider mec", "refuses", "protocol 9 ", "protocol 11 ",
                  "same version"});
   CHECK_FALSE(std::filesystem::exists(at / "drive")); // nothing has begun
   CHECK(provider.run().runs());

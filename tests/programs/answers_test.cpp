@@ -220,7 +220,7 @@ TEST_CASE_FIXTURE(central_question,
       const auto at = static_cast<std::size_t>(
           random.between(0, static_cast<double>(line.size()) - 0.001));
       if (k % 2)
-        line[at] = static_cast<char>(random.between(0, 256));
+        line[at] = static_cast<char>(random.between(-128, 128));
       else
         line.erase(at, 1);
       if (line.empty())

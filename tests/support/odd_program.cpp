@@ -3,7 +3,6 @@
 #include "examples/programs/service_program.hpp"
 #include <chrono>
 #include <cstdlib>
-#include <cstring>
 #include <string>
 #include <thread>
 
@@ -45,8 +44,12 @@ std::optional<octets> answer(const std::string& what,
   if (what == "foresees")
     service_program::detail::send(17, {0, x.number + 1, {}}, {});
   if (what == "eats")
-    for (;;)
-      std::memset(std::malloc(much), 1, much);
+    for (;;) {
+      constexpr std::size_t page = 4096;
+      auto* some = static_cast<volatile char*>(std::malloc(much));
+      for (std::size_t i = 0; i < much; i += page)
+        some[i] = 1;
+    }
   if (what == "answers_twice") {
     service_program::detail::send(17, {0, x.number, {}}, x.what);
     return octets{'2'};
