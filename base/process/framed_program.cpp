@@ -79,7 +79,7 @@ framed_program::exchange(std::int64_t time_ns, std::uint64_t number,
       child_.wait(!waiting_.empty(), std::min(until, now + between_looks));
   }
   is_asked_ = false;
-  const auto answer = std::exchange(answer_, std::nullopt);
+  auto answer = std::exchange(answer_, std::nullopt);
   if (!answer || answer->kind != frame_kind::result)
     return std::nullopt;
   return std::move(answer->octets);

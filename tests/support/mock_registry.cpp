@@ -2,6 +2,7 @@
 // after the other, a question each.
 #include "tests/support/mock_registry.hpp"
 
+#include "messages/protocol/remote.hpp"
 #include "network/mec/service_info.hpp"
 #include "network/socket.hpp"
 
@@ -335,11 +336,11 @@ std::size_t mock_registry::times(const std::string& question) const {
 }
 
 json service_of(const std::string& provider, std::uint16_t port) {
-  return json::parse(
-      network::mec011::to_json({.version = "10",
-                                .provider = provider,
-                                .is_secured = false,
-                                .addresses = {{"127.0.0.1", port}}}));
+  return json::parse(network::mec011::to_json(
+      {.version = std::to_string(messages::remote_protocol),
+       .provider = provider,
+       .is_secured = false,
+       .addresses = {{"127.0.0.1", port}}}));
 }
 
 } // namespace sofof::test
