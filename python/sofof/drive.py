@@ -109,7 +109,7 @@ class Drive:
         listener.listen(1)
         command = [sys.executable, "-I", "-S", hand_over.__file__, address]
         lodm: dict[str, object] = {
-            "filter": "none", "time_limit": "24h", **policy,
+            "filter": "none", "time_limit": "1h", **policy,
             "name": "process", "command": shlex.join(command)}
         quiet = {"record.cycles": False, "record.tracks": False}
         words = [program.find(), "run", scenario, "--quiet",

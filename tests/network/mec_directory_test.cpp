@@ -1,4 +1,5 @@
 // What vehicles make of a registry, whatever it says.
+#include "messages/protocol/remote.hpp"
 #include "network/mec/directory.hpp"
 #include "network/mec/repeating_thread.hpp"
 #include "tests/network/loopback.hpp"
@@ -28,7 +29,9 @@ struct vehicles {
 
   explicit vehicles(registry at, bool is_secured = false)
       : providers{std::move(at),
-                  {{"mec", "east"}, "10", is_secured},
+                  {{"mec", "east"},
+                   std::to_string(messages::remote_protocol),
+                   is_secured},
                   random_stream{2, "test"},
                   [this](const auto& x) { news.push_back(x); }} {}
   explicit vehicles(const mock_registry& at, bool is_secured = false)
@@ -176,7 +179,7 @@ TEST_CASE("entries that cannot be meant are left out, and why is said") {
   CHECK(contains(why(plain, false), "10.0.0.5:4711 is another machine"));
   auto older = good;
   older["version"] = "9";
-  CHECK(contains(why(older, true), "speaks version 9 of the protocol, not 10"));
+  CHECK(contains(why(older, true), "speaks version 9 of the protocol, not "));
   for (const auto* here : {"127.0.0.1", "127.1.2.3", "localhost", "::1"})
     CHECK(contains(why(at_host(good, here), true), "is this machine"));
   auto broken = good;
