@@ -141,15 +141,15 @@ TEST_CASE_FIXTURE(scripted, "one that ends or is killed is said to have done "
 
 TEST_CASE_FIXTURE(scripted, "one that is silent is waited for until its time "
                             "is over, and then ended") {
-  time_limit = 100ms;
+  time_limit = 1s; // also to greet, on a busy machine
   const auto begin = std::chrono::steady_clock::now();
   CHECK(contains(failure_of("trap '' TERM; read ask; sleep 60 & wait"),
                  "did not answer in time"));
-  CHECK(std::chrono::steady_clock::now() - begin < 5s);
+  CHECK(std::chrono::steady_clock::now() - begin < 20s);
 }
 
 TEST_CASE_FIXTURE(scripted, "one that does not read is noticed, too") {
-  time_limit = 100ms;
+  time_limit = 1s; // also to greet, on a busy machine
   const auto program = start("sleep 9");
   const policies::cycle_outcome outcome{.at = {}, .service = "any"};
   for (int k = 0; k < 100'000 && failures.empty(); ++k)
