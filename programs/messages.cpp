@@ -98,6 +98,12 @@ void put_provider(json_writer& to, const provider_view& x,
                   const service_needs& needs) {
   to.open('{').key("id").number(x.id.value());
   to.key("x_m").number(x.at.x_m).key("y_m").number(x.at.y_m);
+  to.key("east_mps").number(x.velocity_mps.x_m);
+  to.key("north_mps").number(x.velocity_mps.y_m).key("reach_m");
+  if (x.reach_m)
+    to.number(*x.reach_m);
+  else
+    to.null();
   to.key("utilisation").number(x.utilisation);
   to.key("workers").number(x.workers);
   to.key("computing_s").number(x.computing_s);
@@ -263,6 +269,8 @@ void append_ask(std::string& to, std::uint64_t n,
   line.key("utilisation").number(context.utilisation);
   line.key("workers").number(context.workers);
   put_points(line, "area", context.area.corners());
+  line.key("east_mps").number(context.area_velocity_mps.x_m);
+  line.key("north_mps").number(context.area_velocity_mps.y_m);
   line.key("requests").open('[');
   for (const auto& x : context.requests)
     put_request(line, x);

@@ -47,6 +47,8 @@ class Provider(_Read):
     Attributes:
         id: its number; `id % 65536` is its place in the scenario, from 1 on.
         x_m, y_m: where it is, m.
+        east_mps, north_mps, reach_m: of one that rides with a vehicle, m/s and
+            m: how it moves, and how near it serves; else 0, 0, None.
         utilisation: the share of its workers that what runs there needs, >= 0.
         workers: how many.
         computing_s: mean time of a result of this service there, s.
@@ -58,6 +60,9 @@ class Provider(_Read):
     id: int
     x_m: float = 0.0
     y_m: float = 0.0
+    east_mps: float = 0.0
+    north_mps: float = 0.0
+    reach_m: float | None = None
     utilisation: float = 0.0
     workers: int = 1
     computing_s: float = 0.0
@@ -127,6 +132,8 @@ class Ask(_Read):
     utilisation: float = 0.0
     workers: int = 1
     area: list[list[float]] = field(default_factory=list)
+    east_mps: float = 0.0
+    north_mps: float = 0.0
     requests: list[dict[str, Any]] = field(default_factory=list)
     sessions: list[dict[str, Any]] = field(default_factory=list)
     raw: dict[str, Any] = field(default_factory=dict, repr=False)

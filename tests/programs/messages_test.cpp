@@ -41,6 +41,7 @@ TEST_CASE("an ask of a vehicle is one line with all that a policy sees") {
                          R"("service":"trajectory_planning","current":null,)"
                          R"("since_s":0,"here":null,"speed_mps":8.5,)"
                          R"("providers":[{"id":65537,"x_m":0,"y_m":-20.25,)"
+                         R"("east_mps":0,"north_mps":0,"reach_m":null,)"
                          R"("utilisation":0.1,"workers":4,)"
                          R"("computing_s":0.0032,"late":0.25,"gap":0.125,)"
                          R"("median_s":0.02,"p99_s":0.045,)"));
@@ -89,13 +90,24 @@ TEST_CASE("forecasts, chains and safe response times come to who wants them") {
   CHECK(all["chain"][0]["providers"].size() == 2);
 }
 
+TEST_CASE("a provider that rides with a vehicle is told with how it moves") {
+  asked_vehicle car;
+  car.providers[0].velocity_mps = {3.5, -1};
+  car.providers[0].reach_m = 80;
+  const auto leader = json::parse(ask(car.seen))["providers"][0];
+  CHECK(leader["east_mps"] == 3.5);
+  CHECK(leader["north_mps"] == -1);
+  CHECK(leader["reach_m"] == 80);
+}
+
 TEST_CASE("an ask of a provider has what is asked and what runs") {
   const asked_provider mec;
   std::string text;
   append_ask(text, 3, mec.seen());
   CHECK(text.starts_with(R"({"type":"ask","n":3,"policy":"codm","t_s":12.5,)"
                          R"("provider":65537,"utilisation":0.25,"workers":4,)"
-                         R"("area":[[0,0],[100,0],[100,100]],"requests":[)"
+                         R"("area":[[0,0],[100,0],[100,100]],)"
+                         R"("east_mps":0,"north_mps":0,"requests":[)"
                          R"({"station":101,)"));
   const auto all = json::parse(text);
   CHECK(all["requests"].size() == 2);
