@@ -198,9 +198,10 @@ public:
   lying_part(std::shared_ptr<offloading::service_function> honest,
              actors::planning_world_ptr world,
              offloading::provider_context provider, chain_lie what,
-             duration after)
+             duration after, lies_told told)
       : honest_{std::move(honest)}, world_{std::move(world)},
-        provider_{std::move(provider)}, what_{what}, after_{after} {}
+        provider_{std::move(provider)}, what_{what}, after_{after},
+        told_{std::move(told)} {}
 
   offloading::service_output
   run(time_point now, const messages::service_input& input) override {
@@ -212,25 +213,32 @@ public:
       began_ = now;
     if (now - *began_ < after_)
       return out;
-    auto told = liar_of(what_) == "tracking" ? tracks(*message, input, now)
-                                             : scene(*message, now);
-    if (!told.octets.empty())
-      out.what = messages::payload::of(std::move(told));
+    const auto word = [&](bool is_lie) {
+      return liar_of(what_) == "tracking" ? tracks(*message, input, now, is_lie)
+                                          : scene(*message, now, is_lie);
+    };
+    auto told = word(true);
+    if (told.octets.empty())
+      return out;
+    if (told_ && told.octets != word(false).octets)
+      ++*told_;
+    out.what = messages::payload::of(std::move(told));
     return out;
   }
 
 private:
   messages::its_pdu tracks(const messages::its_pdu& honest,
-                           const messages::service_input& input,
-                           time_point now) {
+                           const messages::service_input& input, time_point now,
+                           bool is_lie) {
     const auto look = input.what.as<messages::its_pdu>();
     const auto seen =
         look ? actors::read_objects(*look, *world_, now) : std::nullopt;
     auto told = actors::read_objects(honest, *world_, now);
     if (!told || !seen || !seen->eye)
       return {};
-    change(*told, *seen, what_);
-    if (what_ == chain_lie::tracks_new_ids)
+    if (is_lie)
+      change(*told, *seen, what_);
+    if (is_lie && what_ == chain_lie::tracks_new_ids)
       for (auto& id : told->ids)
         id = made_up_id + ++renumbered_ % most_made_up;
     std::vector<planners::track> changed;
@@ -244,12 +252,13 @@ private:
                                     *world_);
   }
 
-  messages::its_pdu scene(const messages::its_pdu& honest,
-                          time_point now) const {
+  messages::its_pdu scene(const messages::its_pdu& honest, time_point now,
+                          bool is_lie) const {
     auto told = actors::read_scene_words(honest, *world_->where, now);
     if (!told)
       return {};
-    change(told->scene, what_);
+    if (is_lie)
+      change(told->scene, what_);
     return actors::make_scene_words(
         told->scene, {told->from, 0, told->position, told->at, told->seen},
         *world_->where);
@@ -260,6 +269,7 @@ private:
   offloading::provider_context provider_;
   chain_lie what_;
   duration after_;
+  lies_told told_;
   std::optional<time_point> began_;
   std::uint32_t renumbered_ = 0;
 };
@@ -269,15 +279,16 @@ public:
   lying_part_at_provider(std::shared_ptr<offloading::provider_service> honest,
                          actors::planning_world_ptr world,
                          offloading::provider_context provider, chain_lie what,
-                         duration after)
+                         duration after, lies_told told)
       : real_at_provider{std::move(honest)}, world_{std::move(world)},
-        provider_{std::move(provider)}, what_{what}, after_{after} {}
+        provider_{std::move(provider)}, what_{what}, after_{after},
+        told_{std::move(told)} {}
 
   std::shared_ptr<offloading::service_function>
   make_function(station_id vehicle) override {
     return std::make_shared<lying_part>(
         real_at_provider::make_function(vehicle), world_, provider_, what_,
-        after_);
+        after_, told_);
   }
 
 private:
@@ -285,6 +296,7 @@ private:
   offloading::provider_context provider_;
   chain_lie what_;
   duration after_;
+  lies_told told_;
 };
 
 } // namespace
@@ -301,18 +313,19 @@ std::string_view liar_of(chain_lie what) {
 }
 
 actors::service_type_ptr lying_chain(actors::service_type_ptr honest,
-                                     chain_lie what, duration after) {
+                                     chain_lie what, duration after,
+                                     lies_told told) {
   return std::make_shared<changed_service>(
-      std::move(honest), [what, after](offloading::service& service,
-                                       const actors::service_world& world) {
+      std::move(honest),
+      [=](offloading::service& service, const actors::service_world& world) {
         const auto shared = std::make_shared<const actors::planning_world>(
             world.streets, world.where, world.car, world.crossings_granted,
             world.eyes);
-        service.at_provider = [real = service.at_provider, shared, what,
-                               after](const auto& provider) {
-          return std::make_shared<lying_part_at_provider>(
-              real(provider), shared, provider, what, after);
-        };
+        service.at_provider =
+            [=, real = service.at_provider](const auto& provider) {
+              return std::make_shared<lying_part_at_provider>(
+                  real(provider), shared, provider, what, after, told);
+            };
       });
 }
 

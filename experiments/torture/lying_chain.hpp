@@ -5,7 +5,10 @@
 #include "base/time.hpp"
 
 #include <array>
+#include <atomic>
 #include <chrono>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string_view>
 
@@ -46,13 +49,18 @@ std::optional<chain_lie> chain_lie_of(std::string_view name);
 /// @returns the name of the service that tells this lie.
 std::string_view liar_of(chain_lie what);
 
+/// Counts results that are not what an honest service had told.
+using lies_told = std::shared_ptr<std::atomic<std::uint64_t>>;
+
 /// The results that come down are changed. A function that runs beside this one
 /// at the provider asks the honest one.
 /// @param honest  The service of that name.
 /// @param after   The first results of each session are honest.
+/// @param told    Counts, if it is there.
 /// @returns the service as it is in vehicles, with providers that lie.
 actors::service_type_ptr lying_chain(actors::service_type_ptr honest,
                                      chain_lie what,
-                                     duration after = std::chrono::seconds{8});
+                                     duration after = std::chrono::seconds{8},
+                                     lies_told told = nullptr);
 
 } // namespace sofof::experiments::torture

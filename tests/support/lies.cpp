@@ -332,11 +332,12 @@ int drive_chain(std::string_view what, std::string_view offered,
   put_in_the_way(s, what == "scene_beside_fast" ? 1.8 : hardly_m);
   const auto of_plans = lie_of(what);
   const auto of_chain = chain_lie_of(what);
+  const auto told = std::make_shared<std::atomic<std::uint64_t>>(0);
   for (auto& kind : s.services)
     if (of_plans && kind->name() == planning)
       kind = lying_service(kind, *of_plans);
     else if (of_chain && kind->name() == liar_of(*of_chain))
-      kind = lying_chain(kind, *of_chain);
+      kind = lying_chain(kind, *of_chain, std::chrono::seconds{8}, told);
   const auto lied = play(s);
   const auto x = measure(s, lied, lied);
   std::map<std::string, std::size_t> used;
@@ -349,11 +350,12 @@ int drive_chain(std::string_view what, std::string_view offered,
   fmt::print("lie={} offered={} seed={} seconds={} collisions={} "
              "beyond_m={:.2f} outside_s={:.2f} braking_s={:.2f} "
              "least_accel_mps2={:.2f} over_mps={:.2f} without_plan_s={:.3f} "
-             "refused={} used={} checks={}\n",
+             "told={} refused={} used={} checks={}\n",
              what, offered, seed, seconds, x.collisions, x.beyond_m,
              x.outside_s, x.braking_s, x.least_accel_mps2, x.over_mps,
-             without_plan_s, x.refused, list_counts(used),
-             list_counts(x.checks));
+             without_plan_s,
+             of_chain ? std::to_string(told->load()) : "unknown", x.refused,
+             list_counts(used), list_counts(x.checks));
   return 0;
 }
 
