@@ -214,6 +214,8 @@ void broker_connection::write_figures(recording::exposition& to) const {
 }
 
 std::string broker_connection::user() const {
+  if (!what_.url.user.empty())
+    return what_.url.user;
   return keys_ ? network::describe(keys_->now().identity()) : std::string{};
 }
 

@@ -240,13 +240,16 @@ private:
   void on_connection_error(proton::connection& c) override {
     why_ = c.error().what();
   }
-  void on_sender_error(proton::sender& s) override { lose(s, s.error()); }
-  void on_receiver_error(proton::receiver& r) override { lose(r, r.error()); }
+  // A broker that ends a link or a session may leave its connection open.
+  void on_sender_close(proton::sender& s) override { leave(s, s.error()); }
+  void on_receiver_close(proton::receiver& r) override { leave(r, r.error()); }
+  void on_session_close(proton::session& s) override { leave(s, s.error()); }
   void on_error(const proton::error_condition& e) override { why_ = e.what(); }
 
-  void lose(const proton::link& l, const proton::error_condition& e) {
-    why_ = e.what();
-    l.connection().close();
+  void leave(const auto& ended, const proton::error_condition& e) {
+    if (!e.empty())
+      why_ = e.what();
+    ended.connection().close();
   }
 
   // -- messages -------------------------------------------------------------
