@@ -50,14 +50,13 @@ def limited(label, values, limit, unit):
 # -- processes -----------------------------------------------------------------
 
 def stat(pid):
-    """Returns state, parent, CPU time in s and start in s since the boot."""
+    """Returns state, parent and CPU time in s."""
     try:
         fields = pathlib.Path(f"/proc/{pid}/stat").read_text()
     except OSError:
         return None
     fields = fields.rsplit(")", 1)[1].split()
-    return (fields[0], int(fields[1]), TICK_S * (int(fields[11]) + int(fields[12])),
-            TICK_S * int(fields[19]))
+    return fields[0], int(fields[1]), TICK_S * (int(fields[11]) + int(fields[12]))
 
 
 def children(of):
@@ -101,7 +100,6 @@ class Run:
         self.child = subprocess.Popen([str(w) for w in words], stdout=self.log,
                                       stderr=self.log)
         self.zombies, self.files, self.cpu_s = {}, [], {}
-        self.start_s = None
 
     def ends_well(self, label):
         """Whether SOFOF has gone on to the end: of its program's mistakes it
@@ -122,8 +120,6 @@ class Run:
             if x[0] == "Z":
                 first, _ = self.zombies.setdefault(pid, (time.monotonic(), 0))
                 self.zombies[pid] = first, time.monotonic()
-        if now and self.start_s is None:
-            self.start_s = min(x[3] for x in now.values())
         # Each program has a socket here.
         self.files.append(files(self.child.pid) - len(now))
         return True
@@ -287,11 +283,11 @@ def deaths_of_vehicles(kills):
     for _ in range(rounds):
         for station, pid in programs(run.child.pid, "vehicle"):
             if kill(pid):
-                moments.append((station, time.monotonic()))
+                moments.append((station, time.time()))
         run.look(3)
     run.ends_well("vehicles' deaths")
     row("vehicles' programs killed", len(moments), f">= {kills}", len(moments) >= kills)
-    begin = run.start_s
+    begin = run.summary("start_unix_ms") / 1e3
     lost = [x for x in run.events("program_lost") if x["provider"] == ""]
     back = [x for x in run.events("program_back") if x["provider"] == ""]
     said, away, served = [], [], 0
@@ -304,7 +300,6 @@ def deaths_of_vehicles(kills):
         near = [x for x in run.cycles() if int(x["station"]) == station
                 and x["used"] == "1" and t < float(x["received_s"]) < t + 1]
         served += len(near) >= 8
-    # A process tells its start in hundredths of a second.
     limited("death of the own program: said after", said, 100 + 20, "ms")
     limited("death of the own program: back after", away, 2000, "ms")
     row("meanwhile 8 results a second of the provider", f"{served} of {len(moments)}",
