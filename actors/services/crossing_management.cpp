@@ -17,7 +17,8 @@ using namespace std::chrono_literals;
 class crossing_management final : public service_type {
 public:
   crossing_management() {
-    options.limits = {100ms, 150ms, 500ms};
+    // With what is on its way, own rules are back 150 ms after a silence began.
+    options.limits = {100ms, 120ms, 500ms};
     options.period = 50ms;
     options.input_period = 100ms;
     options.compute = {.run_time_mean = 1ms,

@@ -14,9 +14,6 @@ using namespace std::chrono_literals;
 constexpr duration claimed_every = 200ms;
 constexpr double claims_before_line_m = 1;
 
-/// Who is slower than this, and so far behind its claim, is held up.
-constexpr double held_up_mps = 1, far_behind_m = 5;
-
 /// Who has left the crossing in time but for this has kept its claim.
 constexpr double left_within_m = 5;
 
@@ -102,11 +99,12 @@ bool crossing_member::is_kept(time_point now,
   return std::abs(to_seconds(*comes - *then)) < rules_.late_s;
 }
 
-/// @returns whether it is held up so far behind what it has claimed that nobody
-/// counts on that any more.
-bool crossing_member::is_held_up(time_point now) const {
-  return own_.speed_mps < held_up_mps && now < claimed_.end()
-         && claimed_.at(now).s_m > own_.s_m + far_behind_m;
+/// @returns whether it is so far behind what it has claimed that others may
+/// have ceased to count on that.
+bool crossing_member::is_behind(time_point now) const {
+  assert(!claimed_.empty() && own_.speed_mps >= 0);
+  const auto behind_m = claimed_.at(now).s_m - own_.s_m;
+  return behind_m > most_behind_m(own_.speed_mps);
 }
 
 claimed_drive crossing_member::claim_of(const world::trajectory& drive) const {
@@ -170,8 +168,10 @@ void crossing_member::move(time_point now, const place& own) {
       told_, [&](const heard& x) { return now - x.at > rules_.claims.memory; });
   if (advised_ && now > advised_->until)
     advised_.reset();
+  // Until a claim binds its owner waits at the line, so it can stop.
+  const auto may_stop = can_stop() || book_.is() == claim_book::state::claimed;
   if (book_.is() != claim_book::state::free
-      && (can_stop() ? !is_kept(now, claimed_) : is_held_up(now)))
+      && (is_behind(now) || (may_stop && !is_kept(now, claimed_))))
     book_.give_up();
   follow_claim(now);
   if (book_.is() == claim_book::state::free && advised_)

@@ -28,8 +28,8 @@ void visit_fields(auto& v, crossing_view& x) {
   v("binds", x.binds);
 }
 
-/// Claims a drive shortly before it enters the crossing, holds it while it can
-/// be kept, and gives it up as long as the vehicle can stop.
+/// Claims a drive shortly before it enters the crossing, holds it while it is
+/// kept, and gives it up as long as the vehicle can stop if it will not be.
 class crossing_member {
 public:
   struct rules {
@@ -100,7 +100,7 @@ private:
   };
   bool can_stop() const;
   bool is_kept(time_point now, const world::trajectory& drive) const;
-  bool is_held_up(time_point now) const;
+  bool is_behind(time_point now) const;
   claimed_drive claim_of(const world::trajectory& drive) const;
   bool is_near(const claimed_drive& plan, point from) const;
   std::optional<time_point> enters(const world::trajectory& drive) const;

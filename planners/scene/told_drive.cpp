@@ -11,6 +11,9 @@ namespace {
 /// Bodies are compared at moments so far apart.
 constexpr duration compared_every = std::chrono::milliseconds{100};
 
+/// A way, and a time.
+constexpr double behind_m = 1.5, behind_s = 0.3;
+
 double half_diagonal_m(const oriented_box& x) {
   return std::hypot(x.length_m, x.width_m) / 2;
 }
@@ -32,6 +35,11 @@ oriented_box claimed_drive::at(time_point t) const {
   x.centre = x.centre + share * (next.centre - x.centre);
   x.heading_rad += share * wrap_angle(next.heading_rad - x.heading_rad);
   return x;
+}
+
+double most_behind_m(double speed_mps) {
+  assert(std::isfinite(speed_mps));
+  return std::max(behind_m, behind_s * speed_mps);
 }
 
 bool overlap(const claimed_drive& a, const claimed_drive& b, duration apart) {

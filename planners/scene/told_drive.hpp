@@ -33,6 +33,10 @@ struct claimed_drive {
 /// later or earlier than it is going to.
 bool overlap(const claimed_drive& a, const claimed_drive& b, duration apart);
 
+/// Who is farther behind its claim than this gives it up, and nobody counts on
+/// it any more. Well below what lies between two claims (claim_book::rules).
+double most_behind_m(double speed_mps);
+
 /// What a vehicle tells everybody about itself at a crossing.
 struct crossing_claim {
   station_id who = 0;

@@ -23,9 +23,8 @@ constexpr double as_told_m = 4, as_told_along_m = 4;
 constexpr double lead_moves_mps = 1;
 /// Who is slower than it says by more brakes for something.
 constexpr double lead_slower_mps = 1;
-/// Who is behind its claim by more does not keep it: a way, and a time, well
-/// below that between two claims (claim_book::rules).
-constexpr double late_m = 1.5, late_s = 0.3;
+/// Who may be just about to give its claim up is seen by less than that off.
+constexpr double seen_share = 1.1;
 /// Drives are looked for on the own way so far from the car.
 constexpr double own_way_m = 200;
 /// A lead is on the own way if it is not farther from it than a car by this.
@@ -69,7 +68,7 @@ void find_those_who_tell(time_point now, std::span<const told_drive> told,
     nearest->has_claimed =
         has_agreed && is_claimed
         && dot(body.centre - nearest->x.centre(), ahead)
-               < std::max(late_m, late_s * nearest->x.speed_mps());
+               < seen_share * most_behind_m(nearest->x.speed_mps());
     nearest->takes_part = nearest->has_claimed || (has_agreed && !is_claimed);
   }
 }

@@ -146,10 +146,34 @@ TEST_CASE("who will not come when it said gives its claim up, unless it cannot "
 
   advised_car close{after_s};
   REQUIRE(close.member.state() == state::bound);
-  const auto near = drive(90, 9.9);
+  const auto slow = drive(91, 9, 0, 4); // 0.8 s later at the line
   close.member.end_advice();
-  close.member.move(at(9.9), here(90, speed_mps, &near)); // 6 m before it
+  close.member.move(at(9), here(91, speed_mps, &slow)); // 1 m behind its claim
   CHECK(close.member.state() == state::bound);
+}
+
+TEST_CASE("who is farther behind its claim than others allow for gives it up, "
+          "wherever it is") {
+  advised_car car{after_s};
+  REQUIRE(car.member.state() == state::bound);
+  car.member.end_advice();
+  const auto slow = drive(89, 9); // 3 m behind
+  car.member.move(at(9), here(89, speed_mps, &slow));
+  CHECK(car.member.state() == state::free);
+}
+
+TEST_CASE(
+    "who brakes for its line, as its claim does not bind yet, gives it up "
+    "when it will be late") {
+  crossing_member member{own_car, {}};
+  const auto way = drive(20, 0), stopping = drive(87.5, 8.5, 0, 0.01);
+  member.on_report(at(8.2), {peer, at(8.2), {}}, {}, {115, 5});
+  member.advise(at(8.25), way);
+  member.move(at(8.25), here(86, speed_mps, &way));
+  REQUIRE(member.state() == state::claimed);
+  member.end_advice();
+  member.move(at(8.5), here(87.5, 5, &stopping));
+  CHECK(member.state() == state::free);
 }
 
 TEST_CASE("who is held up on the crossing gives its claim up, and claims anew "

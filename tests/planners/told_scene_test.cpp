@@ -65,10 +65,12 @@ std::vector<way_moment> told_by_lead(double heading_rad, double beside_m,
 
 } // namespace
 
-TEST_CASE("a slow car that is over 1.5 m behind what it has claimed does "
-          "not keep it") {
-  CHECK(is_kept(2, 1.4));
-  CHECK_FALSE(is_kept(2, 1.6));
+TEST_CASE(
+    "a slow car does not keep its claim if it is so far behind that it has "
+    "given it up") {
+  const auto most_m = most_behind_m(2);
+  CHECK(is_kept(2, most_m)); // it is seen less well than it knows its place
+  CHECK_FALSE(is_kept(2, 1.2 * most_m));
 }
 
 TEST_CASE("whose claim is kept is less late than claims are apart") {
