@@ -30,6 +30,7 @@ void add_encode(CLI::App& app, int& exit_code);
 void add_convert(CLI::App& app, int& exit_code);
 void add_import(CLI::App& app, int& exit_code);
 void add_map(CLI::App& app, int& exit_code);
+void add_judge(CLI::App& app, int& exit_code);
 void add_new(CLI::App& app, int& exit_code);
 void add_keys(CLI::App& app, int& exit_code);
 void add_schema(CLI::App& app, int& exit_code);

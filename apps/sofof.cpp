@@ -85,6 +85,7 @@ int obey(int argc, char** argv) {
   sofof::apps::add_import(app, exit_code);
   sofof::apps::add_new(app, exit_code);
   sofof::apps::add_map(app, exit_code);
+  sofof::apps::add_judge(app, exit_code);
   sofof::apps::add_check(app, exit_code);
   sofof::apps::add_check_trace(app, exit_code);
   sofof::apps::add_policies(app, exit_code);

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -26,6 +28,10 @@ constexpr auto narrowest_lane_m = 1.0; // half of it
 /// Signs of speed limits, of Germany, the USA and others.
 constexpr std::array<std::string_view, 4> limit_signs{"274", "274.1", "R2-1",
                                                       "r301"};
+
+/// Give way, and stop, of Germany and the USA.
+constexpr std::array<std::string_view, 4> yield_signs{"205", "206", "R1-1",
+                                                      "R1-2"};
 
 /// What is counted and left out: elements and their names.
 constexpr std::array<std::pair<const char*, const char*>, 5> others{
@@ -51,6 +57,7 @@ public:
     move_to_middle();
     for (const auto lanelet : file_.root().children("lanelet"))
       link(lanelet);
+    rank_lanes();
     for (const auto& [element, name] : others) {
       const auto all = file_.root().children(element);
       if (const auto count = std::distance(all.begin(), all.end()); count > 0)
@@ -63,6 +70,8 @@ private:
   void read_sign(pugi::xml_node sign) {
     for (const auto part : sign.children("trafficSignElement")) {
       const std::string_view id = part.child_value("trafficSignID");
+      if (std::ranges::find(yield_signs, id) != yield_signs.end())
+        yield_signs_.emplace(file_.text(sign, "id"));
       const auto value = part.child("additionalValue");
       if (value && std::ranges::find(limit_signs, id) != limit_signs.end())
         limits_.emplace(file_.text(sign, "id"),
@@ -117,6 +126,9 @@ private:
                      .centre = middle.centre,
                      .half_width_m = middle.half_width_m};
     made.limit_mps = limit_of(lanelet);
+    for (const auto sign : lanelet.children("trafficSignRef"))
+      if (yield_signs_.contains(file_.text(sign, "ref")))
+        yields_.insert(name);
     map_.lanes.push_back(std::move(made));
   }
 
@@ -133,6 +145,23 @@ private:
     for (auto& l : map_.lanes)
       for (auto& p : l.centre)
         p = p - middle;
+    map_.middle = middle;
+  }
+
+  /// Who comes by a lanelet that a sign tells to give way, and what follows it
+  /// alone, comes after the others.
+  void rank_lanes() {
+    std::map<std::string_view, bool> gives_way; // all who lead to it
+    for (const auto& l : map_.lanes)
+      for (const auto& next : l.next)
+        gives_way.try_emplace(next, true).first->second &=
+            yields_.contains(l.name);
+    for (auto& l : map_.lanes) {
+      const auto after = gives_way.find(l.name);
+      if (yields_.contains(l.name)
+          || (after != gives_way.end() && after->second))
+        l.rank = 1;
+    }
   }
 
   void link(pugi::xml_node lanelet) {
@@ -165,6 +194,8 @@ private:
   source_map map_;
   std::unordered_map<std::string_view, double> limits_; // of signs
   std::unordered_map<std::string, std::size_t> known_;  // lanelets → lanes
+  std::set<std::string_view> yield_signs_;
+  std::set<std::string> yields_; // lanelets with one
 };
 
 } // namespace

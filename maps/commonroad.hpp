@@ -6,8 +6,9 @@
 
 namespace sofof::maps {
 
-/// Reads the lanelets of versions 2018b and 2020a with their successors, and
-/// speed limits of the lanelets or of traffic signs; without one, 50 km/h.
+/// Reads the lanelets of versions 2018b and 2020a with their successors,
+/// speed limits of the lanelets or of traffic signs (without one, 50 km/h), and
+/// who has to give way by a sign.
 /// Obstacles, planning problems and traffic lights are counted and left out.
 /// @param file  Its root is <commonRoad>.
 /// @throws input_error with the place of what is wrong.

@@ -93,6 +93,7 @@ void warn_of_bends(const std::vector<drawn_lane>& lanes, imported_map& to) {
   for (const auto& l : lanes)
     if (!l.is_drivable()) {
       names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", l.is.name);
+      to.too_sharp.push_back(l.is.name);
       sharpest_1pm = std::max(sharpest_1pm, l.sharpest_1pm);
       ++count;
     }
@@ -128,6 +129,7 @@ imported_map import(const named_text& map, const std::string& name,
                               l.name, length_m(l.centre) / 1000,
                               longest_lane_m / 1000));
   imported_map to{.name = name, .origin = source.origin};
+  to.middle = source.middle;
   try {
     const auto lanes = draw_lanes(source);
     for (const auto& l : lanes)

@@ -23,9 +23,11 @@ struct imported_map {
   std::optional<world::geo_origin> origin;
   std::vector<world::lane> lanes{};
   std::vector<lane_route> routes{};
-  std::vector<departure> departures{}; ///< Of `routes`, in order of time.
-  tally left_out{};                    ///< What of the source is not there.
-  std::vector<std::string> warnings{}; ///< Sentences: lanes no car can follow.
+  std::vector<departure> departures{};  ///< Of `routes`, in order of time.
+  tally left_out{};                     ///< What of the source is not there.
+  std::vector<std::string> warnings{};  ///< Sentences: lanes no car can follow.
+  std::vector<std::string> too_sharp{}; ///< The names of these.
+  point middle{}; ///< Of the map's frame, in the source's.
 };
 
 /// @returns a map file (docs/scenarios.md), of which `parse_map` makes the

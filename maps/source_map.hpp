@@ -50,6 +50,7 @@ inline constexpr auto southern = "the place on earth, south of the equator";
 struct source_map {
   std::string name;
   std::optional<world::geo_origin> origin;
+  point middle; ///< Of the map's frame, in the source's, if that is another.
   std::vector<source_lane> lanes;
   std::vector<source_route> routes;
   std::vector<departure> departures;

@@ -29,6 +29,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <ranges>
 #include <tuple>
@@ -65,11 +66,23 @@ bool has_areas(const scenario_definition& s) {
   return false;
 }
 
-std::vector<oriented_box> obstacles(const scenario_definition& s) {
+/// What stands on the road comes first, in the order of the file.
+std::vector<oriented_box> standing(const scenario_definition& s) {
   std::vector<oriented_box> boxes;
   for (const auto& o : s.obstacles)
-    boxes.push_back(o.box());
+    if (!o.moves())
+      boxes.push_back(o.box());
   return boxes;
+}
+
+std::vector<world::scripted_body> scripted(const scenario_definition& s) {
+  std::vector<world::scripted_body> all;
+  auto number = static_cast<std::uint32_t>(std::ranges::count_if(
+      s.obstacles, std::not_fn(&obstacle_options::moves)));
+  for (const auto& o : s.obstacles)
+    if (o.moves())
+      all.push_back(o.script(obstacle_id(number++)));
+  return all;
 }
 
 provider_load measured(const provider_options& provider,
@@ -278,7 +291,8 @@ private:
         sys_, {s_.world, std::move(ways), world::vehicle_params{}, s_.sensors,
                noise_of(s_, "sensors"),
                sensors_beside(noise_of(s_, "roadside sensors"), cells_, here_),
-               obstacles(s_), world_.recorder, s_.traffic.grants_crossings()});
+               standing(s_), world_.recorder, s_.traffic.grants_crossings(),
+               scripted(s_)});
     watch(world_.road, "the road");
     world_.air =
         actors::spawn_air(sys_, {s_.network.channel, noise_of(s_, "air"), 300,
@@ -298,7 +312,9 @@ private:
                  fresh_limit(s_),
                  alone_limit(s_),
                  s_.record.tracks ? s_.record.tracks_period : duration{0},
-                 roads_.of(v.way)};
+                 roads_.of(v.way),
+                 v.left_m,
+                 v.turn_rad};
     setup.appears_after = v.appears;
     const auto seeing = make_seeing_client(s_, where_);
     setup.plans = seeing.plans;

@@ -69,11 +69,10 @@ void check_obstacles(const scenario_definition& all, const toml_file& source) {
                     fmt::format("stations above {} are obstacles; begin lower.",
                                 highest));
   for (const auto& v : place_vehicles(all)) {
-    const auto pose = v.way->path().at(v.start_s_m);
-    const auto box =
-        world::body({.at = pose.at, .heading_rad = pose.heading_rad}, {});
+    const auto box = v.body();
     for (std::size_t k = 0; k < all.obstacles.size(); ++k)
-      if (overlap(box, all.obstacles[k].box()))
+      if (const auto& one = all.obstacles[k];
+          !one.moves() && overlap(box, one.box()))
         source.refuse(fmt::format("obstacle.{}", k),
                       fmt::format("vehicle {} would start on it.", v.station));
   }
@@ -200,7 +199,7 @@ void check_placement(const scenario_definition& all, const toml_file& source) {
   for (const auto& v : vehicles) {
     const auto start_mps = all.fleets[v.fleet].start_speed_mps;
     const auto limit_mps = v.way->limit_mps(v.start_s_m);
-    if (start_mps > limit_mps)
+    if (start_mps > limit_mps && !all.fleets[v.fleet].start_over_limit)
       source.refuse(
           fmt::format("fleet.{}.start_speed_mps", v.fleet),
           fmt::format("vehicle {} would start with {} m/s at {:.0f} m of "

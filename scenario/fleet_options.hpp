@@ -1,7 +1,6 @@
-// What a scenario says of its road: vehicles, rules and obstacles.
+// What a scenario says of its road: vehicles and rules.
 #pragma once
 
-#include "base/geometry.hpp"
 #include "base/ids.hpp"
 #include "base/options/option_helpers.hpp"
 #include "scenario/ride_options.hpp"
@@ -28,9 +27,12 @@ struct fleet_options {
   /// "equal": spread evenly over each route from `start_m` on; "convoy": one
   /// behind the other, `spacing_m` apart, the first one at `start_m`.
   std::string placement = "equal";
-  double spacing_m = 60;      ///< From rear axle to rear axle.
-  double start_m = 0;         ///< Arc length on the route, of the rear axle.
-  double start_speed_mps = 0; ///< They start driving, as fast as this.
+  double spacing_m = 60;         ///< From rear axle to rear axle.
+  double start_m = 0;            ///< Arc length on the route, of the rear axle.
+  double start_speed_mps = 0;    ///< They start driving, as fast as this.
+  bool start_over_limit = false; ///< That may be faster than they may drive.
+  double start_left_m = 0;   ///< They start so far beside the lane's middle,
+  double start_turn_deg = 0; ///< and turned from it; both to the left.
   /// Whether they can talk to providers; else they send nothing and never
   /// offload.
   bool connected = true;
@@ -60,6 +62,12 @@ struct fleet_options {
     s.field("spacing_m", spacing_m, {0, 1e6});
     s.field("start_m", start_m, {0, 1e6});
     s.field("start_speed_mps", start_speed_mps, {0, 50});
+    if (s.has("start_over_limit", start_over_limit))
+      s.field("start_over_limit", start_over_limit);
+    if (s.has("start_left_m", start_left_m != 0))
+      s.field("start_left_m", start_left_m, {-10, 10});
+    if (s.has("start_turn_deg", start_turn_deg != 0))
+      s.field("start_turn_deg", start_turn_deg, {-90, 90});
     s.field("connected", connected);
     s.field("appears_at", appears_at, 0ns);
     s.field("appear_every", appear_every, 0ns);
@@ -89,23 +97,6 @@ struct traffic_options {
   void visit_options(option_visitor& s) {
     constexpr std::array<std::string_view, 2> rules{"granted", "perceived"};
     visit_word(s, "crossings", crossings, "rule for crossings", rules);
-  }
-};
-
-/// A body that stands on the road, as a parked car does.
-struct obstacle_options {
-  point position_m;       ///< Of its middle.
-  double heading_deg = 0; ///< Along its length, counter-clockwise from east.
-  double length_m = 4.5;
-  double width_m = 1.8;
-
-  oriented_box box() const;
-
-  void visit_options(option_visitor& s) {
-    s.field("position_m", position_m);
-    s.field("heading_deg", heading_deg, {-360, 360});
-    s.field("length_m", length_m, {0.1, 50});
-    s.field("width_m", width_m, {0.1, 50});
   }
 };
 

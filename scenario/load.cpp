@@ -50,8 +50,9 @@ world::streets_ptr known_map(const std::string& text, const fs::path& file) {
   return last.streets;
 }
 
+/// @param map_text  Of a map that is no file.
 void load_world(scenario_definition& all, const fs::path& folder,
-                const toml_file& source) {
+                const toml_file& source, std::optional<std::string> map_text) {
   if (all.grid == !all.map_file.empty())
     source.refuse(all.grid ? "map" : "",
                   all.grid
@@ -63,7 +64,10 @@ void load_world(scenario_definition& all, const fs::path& folder,
     return;
   }
   const auto file = folder / all.map_file;
-  all.map_text = read_named(file, "map", source);
+  if (map_text)
+    all.map_text = std::move(*map_text);
+  else
+    all.map_text = read_named(file, "map", source);
   all.read_from.push_back(file);
   all.world = known_map(all.map_text, file);
 }
@@ -217,7 +221,8 @@ void tell(const std::vector<option_note>& notes) {
 
 /// @param is_run  As `load_policy_files` has it.
 scenario_definition parse(std::string_view text, const fs::path& file,
-                          std::span<const std::string> overrides, bool is_run) {
+                          std::span<const std::string> overrides, bool is_run,
+                          std::optional<std::string> map_text = {}) {
   toml_file source{text, file.string()};
   for (const auto& assignment : overrides)
     source.set(assignment);
@@ -236,7 +241,7 @@ scenario_definition parse(std::string_view text, const fs::path& file,
   if (!all.policies.forecast.file.empty())
     load_forecast(all, folder, source);
   load_policy_files(all, folder, source, is_run);
-  load_world(all, folder, source);
+  load_world(all, folder, source, std::move(map_text));
   load_provider_maps(all, folder, source);
   check_whole(all, source);
   place_riders(all);
@@ -257,6 +262,12 @@ scenario_definition load_scenario(const fs::path& file,
   auto all = parse(require_text(file), file, overrides, true);
   tell(all.notes);
   return all;
+}
+
+scenario_definition load_with_map(std::string_view text, std::string map_text,
+                                  const fs::path& file,
+                                  std::span<const std::string> overrides) {
+  return parse(text, file, overrides, true, std::move(map_text));
 }
 
 } // namespace sofof::scenario

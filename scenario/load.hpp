@@ -28,4 +28,10 @@ scenario_definition parse_scenario(std::string_view text,
                                    const std::filesystem::path& file,
                                    std::span<const std::string> overrides = {});
 
+/// The same for a map that is in memory, too.
+/// @param map_text  What the file of the map would say.
+scenario_definition load_with_map(std::string_view text, std::string map_text,
+                                  const std::filesystem::path& file,
+                                  std::span<const std::string> overrides = {});
+
 } // namespace sofof::scenario

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <numbers>
 
 namespace sofof::scenario {
 
@@ -36,13 +37,20 @@ std::vector<world::route_ptr> ways_of(const fleet_options& fleet,
 
 /// The room that nobody else may stand in: half the gap at both ends.
 oriented_box room(const placed_vehicle& v) {
-  const auto pose = v.way->path().at(v.start_s_m);
-  auto box = world::body({.at = pose.at, .heading_rad = pose.heading_rad}, {});
+  auto box = v.body();
   box.length_m += min_start_gap_m;
   return box;
 }
 
 } // namespace
+
+oriented_box placed_vehicle::body() const {
+  const auto pose = way->path().at(start_s_m);
+  const point left{-std::sin(pose.heading_rad), std::cos(pose.heading_rad)};
+  return world::body({.at = pose.at + left_m * left,
+                      .heading_rad = pose.heading_rad + turn_rad},
+                     {});
+}
 
 std::vector<world::route_ptr> find_routes(const world::streets& world,
                                           std::string_view name) {
@@ -71,10 +79,11 @@ std::vector<placed_vehicle> place_vehicles(const scenario_definition& all) {
     for (std::int64_t i = 0; i < fleet.count; ++i) {
       const auto& way = way_of(i);
       const auto place = standing[way->name()]++;
-      placed.push_back({static_cast<station_id>(fleet.first_station + i), f,
-                        way,
-                        start_of_m(fleet, *way, place, sharing[way->name()]),
-                        fleet.appears_at + i * fleet.appear_every});
+      placed.push_back(
+          {static_cast<station_id>(fleet.first_station + i), f, way,
+           start_of_m(fleet, *way, place, sharing[way->name()]),
+           fleet.appears_at + i * fleet.appear_every, fleet.start_left_m,
+           fleet.start_turn_deg * std::numbers::pi / 180});
     }
   }
   return placed;

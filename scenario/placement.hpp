@@ -18,6 +18,11 @@ struct placed_vehicle {
   world::route_ptr way;
   double start_s_m = 0; ///< On a closed route in [0, length).
   duration appears{};   ///< When; zero: it is there from the start on.
+  double left_m = 0;    ///< Beside its way,
+  double turn_rad = 0;  ///< and turned from it; both to the left.
+
+  /// @returns where it starts.
+  oriented_box body() const;
 
   /// Whether it stands before the start or beyond the end of an open route.
   bool off_its_way() const {

@@ -95,6 +95,13 @@ oriented_box obstacle_options::box() const {
   return {position_m, to_rad(heading_deg), length_m, width_m};
 }
 
+world::scripted_body obstacle_options::script(station_id id) const {
+  std::vector<world::scripted_body::moment> all;
+  for (const auto& m : moments)
+    all.push_back({m.t_s, m.position_m, to_rad(m.heading_deg), m.speed_mps});
+  return {id, length_m, width_m, std::move(all)};
+}
+
 world::sensor roadside_options::make(random_stream noise) const {
   return {can, noise, position_m, to_rad(heading_deg), std::nullopt};
 }

@@ -10,6 +10,7 @@
 #include "policies/api/context.hpp"
 #include "scenario/fleet_options.hpp"
 #include "scenario/forecast_options.hpp"
+#include "scenario/obstacle_options.hpp"
 #include "scenario/provider_options.hpp"
 #include "world/roads/street_grid.hpp"
 #include "world/roads/streets.hpp"

@@ -37,10 +37,12 @@ constexpr duration figures_period = 1s;
 } // namespace
 
 driven_car::driven_car(car_setup setup)
-    : setup_{std::move(setup)}, s_m_{setup_.start_s_m} {
+    : setup_{std::move(setup)}, s_m_{setup_.start_s_m},
+      lateral_m_{setup_.start_left_m} {
   const auto p = setup_.way->path().at(s_m_);
-  car_.at = p.at;
-  car_.heading_rad = p.heading_rad;
+  const point left{-std::sin(p.heading_rad), std::cos(p.heading_rad)};
+  car_.at = p.at + setup_.start_left_m * left;
+  car_.heading_rad = p.heading_rad + setup_.start_turn_rad;
   car_.speed_mps = setup_.start_speed_mps;
   safety_.station = setup_.station;
 }

@@ -28,6 +28,8 @@ struct car_setup {
                                     ///< end; zero: all are.
   duration track_period{};          ///< Between two track records; zero: none.
   planners::route_profile_ptr road; ///< Of `way`, as comfort has it by default.
+  double start_left_m = 0;          ///< Of the middle of the lane,
+  double start_turn_rad = 0;        ///< and from its direction to the left.
 };
 
 /// Where a car is, and how it is going to drive.

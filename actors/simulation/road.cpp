@@ -45,6 +45,7 @@ struct road_state {
       waiting;
   std::vector<std::pair<station_id, station_id>> touching;
   world::near_miss_watch conflict_sides;
+  time_point begin;
 
   void on_report(const messages::motion_report& report,
                  const messages::vehicle_actor& vehicle) {
@@ -88,9 +89,20 @@ struct road_state {
     });
   }
 
+  void place_scripted(time_point t) {
+    if (setup.scripted.empty())
+      return;
+    std::vector<world::road_body> there;
+    for (const auto& one : setup.scripted)
+      if (const auto body = one.at(to_seconds(t - begin)))
+        there.push_back(*body);
+    users->place(std::move(there));
+  }
+
   void tick() {
     const auto t = now(self);
     send_at(self, self, t + protocol::sensor_period, messages::tick_atom_v);
+    place_scripted(t);
     let_in();
     users->update(t);
     visible.place(users->bodies());
@@ -108,7 +120,7 @@ struct road_state {
     for (const auto& user : users->bodies()) {
       const auto vehicle = vehicles.find(user.id);
       if (vehicle == vehicles.end())
-        continue; // stands on the road
+        continue; // an obstacle
       auto view = users->perceive(user.id);
       view.objects =
           visible.seen_by({setup.sensors, setup.noise.part(user.id.value()),
@@ -145,6 +157,7 @@ road_impl::behavior_type road(road_impl::stateful_pointer<road_state> self,
                               road_setup setup) {
   auto& state = self->state;
   state.self = self;
+  state.begin = now(self);
   state.users.emplace(setup.world->map, standing(setup.obstacles),
                       setup.grants_crossings);
   state.visible = world::scene{setup.world->map.buildings()};

@@ -5,6 +5,7 @@
 #include "messages/type_ids.hpp"
 #include "world/roads/streets.hpp"
 #include "world/sensing/sensors.hpp"
+#include "world/traffic/scripted_body.hpp"
 #include "world/vehicle/vehicle.hpp"
 
 #include <caf/actor_system.hpp>
@@ -36,6 +37,8 @@ struct road_setup {
                                        ///< collides as `obstacle_id(k)`.
   messages::recorder_actor recorder;
   bool grants_crossings = true; ///< As `traffic` takes it.
+  /// Move by themselves; their times count from when the road is made.
+  std::vector<world::scripted_body> scripted{};
 };
 
 /// Collects where vehicles are. Every protocol::sensor_period it tells each of

@@ -3,6 +3,7 @@
 #include "base/random.hpp"
 #include "tests/maps/files.hpp"
 
+#include "maps/commonroad_scene.hpp"
 #include <stdexcept>
 
 namespace sofof::maps_tests::mutations {
@@ -77,6 +78,27 @@ TEST_CASE("a spoilt map of Lanelet2 is imported or refused") {
 
 TEST_CASE("a spoilt scenario of CommonRoad is imported or refused") {
   spoil("fork.xml");
+}
+
+TEST_CASE("the scene of a spoilt scenario of CommonRoad is read or refused") {
+  const random_stream draws{1, "scene"};
+  const auto text = text_of("scene.xml");
+  auto read = 0, refused = 0;
+  for (std::uint64_t i = 0; i < files; ++i)
+    try {
+      const auto made = spoilt(text, draws, i);
+      const auto scene =
+          maps::read_commonroad_scene(maps::xml_file{made, "scene.xml"});
+      for (const auto& body : scene.bodies)
+        CHECK(!body.states.empty());
+      for (const auto& problem : scene.problems)
+        CHECK(problem.end() >= problem.begin);
+      ++read;
+    } catch (const input_error&) {
+      ++refused;
+    }
+  CHECK(read > files / 20);
+  CHECK(refused > files / 20);
 }
 
 TEST_CASE("spoilt routes of SUMO are read or refused") {

@@ -159,6 +159,9 @@ TEST_CASE("every option stands in the documentation") {
   auto all = example::load();
   all.grid = true;
   all.obstacles.emplace_back();
+  all.obstacles.emplace_back().moments.emplace_back();
+  all.fleets.front().start_left_m = all.fleets.front().start_turn_deg = 1;
+  all.fleets.front().start_over_limit = true;
   all.fleets.front().compute.scheduling = core_order::edf;
   all.providers.front().sensors.emplace_back();
   all.network.profile.areas = areas();

@@ -63,7 +63,8 @@ struct traffic::state {
   right_of_way crossings;
   std::vector<road_user_state> drivers; // in order of station ids
   const std::vector<road_body> standing;
-  std::vector<road_body> bodies; // the drivers', then those that stand
+  std::vector<road_body> moving; // by themselves
+  std::vector<road_body> bodies; // the drivers', then these
   std::vector<road_user> users;  // the same, as they were reported
   std::vector<extent> from_west;
   std::vector<std::pair<station_id, station_id>> touching;
@@ -93,6 +94,10 @@ void traffic::remove(station_id station) {
   const auto d = state_->find(station);
   if (d != state_->drivers.end() && d->station() == station)
     state_->drivers.erase(d);
+}
+
+void traffic::place(std::vector<road_body> moving) {
+  state_->moving = std::move(moving);
 }
 
 void traffic::update(time_point now) {
@@ -127,6 +132,7 @@ void traffic::state::list_bodies() {
     users.push_back(d.known);
   }
   bodies.insert(bodies.end(), standing.begin(), standing.end());
+  bodies.insert(bodies.end(), moving.begin(), moving.end());
 }
 
 /// Sweeps from west to east: only bodies at the same easting can touch.
@@ -139,11 +145,11 @@ void traffic::state::find_touching() {
     from_west.push_back({x_m - r_m, x_m + r_m, i});
   }
   std::ranges::sort(from_west, {}, &extent::west_m);
-  const auto moves = [this](std::size_t i) { return i < drivers.size(); };
+  const auto drives = [this](std::size_t i) { return i < drivers.size(); };
   for (auto a = from_west.begin(); a != from_west.end(); ++a)
     for (auto b = a + 1; b != from_west.end() && b->west_m <= a->east_m; ++b) {
       const auto &one = bodies[a->who], &other = bodies[b->who];
-      if ((moves(a->who) || moves(b->who)) && touch(one.box, other.box))
+      if ((drives(a->who) || drives(b->who)) && touch(one.box, other.box))
         touching.push_back(std::minmax(one.id, other.id));
     }
   std::ranges::sort(touching);

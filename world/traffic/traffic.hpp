@@ -51,6 +51,10 @@ public:
 
   void remove(station_id station);
 
+  /// Replaces the bodies that move by themselves. They touch others, but the
+  /// rules of the road do not know them. Their ids are no road user's.
+  void place(std::vector<road_body> moving);
+
   /// Decides every crossing anew, if crossings are granted, and finds who
   /// touches whom.
   /// A crossing (zone of a `conflict`) is closed by default and granted in
@@ -68,7 +72,8 @@ public:
   perception perceive(station_id station) const;
 
   /// @returns all road users in the order of their stations, then what stands
-  /// on the road, as of the last `update`; valid until the next one.
+  /// on the road, then what moves by itself, as of the last `update`; valid
+  /// until the next one.
   std::span<const road_body> bodies() const;
 
   /// @returns all road users in the order of their stations, as of the last
