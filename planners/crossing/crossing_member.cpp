@@ -99,11 +99,12 @@ bool crossing_member::is_kept(time_point now,
   return std::abs(to_seconds(*comes - *then)) < rules_.late_s;
 }
 
-/// @returns whether it is so far behind what it has claimed that others may
-/// have ceased to count on that.
-bool crossing_member::is_behind(time_point now) const {
-  assert(!claimed_.empty() && own_.speed_mps >= 0);
-  const auto behind_m = claimed_.at(now).s_m - own_.s_m;
+/// @returns whether it is so far behind a drive that others, had it claimed
+/// that, would not count on it.
+bool crossing_member::is_behind(time_point now,
+                                const world::trajectory& drive) const {
+  assert(!drive.empty() && own_.speed_mps >= 0);
+  const auto behind_m = drive.at(now).s_m - own_.s_m;
   return behind_m > most_behind_m(own_.speed_mps);
 }
 
@@ -171,7 +172,7 @@ void crossing_member::move(time_point now, const place& own) {
   // Until a claim binds its owner waits at the line, so it can stop.
   const auto may_stop = can_stop() || book_.is() == claim_book::state::claimed;
   if (book_.is() != claim_book::state::free
-      && (is_behind(now) || (may_stop && !is_kept(now, claimed_))))
+      && (is_behind(now, claimed_) || (may_stop && !is_kept(now, claimed_))))
     book_.give_up();
   follow_claim(now);
   if (book_.is() == claim_book::state::free && advised_)
@@ -187,6 +188,7 @@ void crossing_member::claim(time_point now, const world::trajectory& drive) {
       own_.s_m - car_.rear_m > own_.clear_m
       || drive.points.front().s_m - car_.rear_m > own_.clear_m;
   if (!at || has_left || done_m_ == own_.line_m || !is_kept(now, drive)
+      || is_behind(now, drive)
       || (*at - now > rules_.claims_before && can_stop()))
     return;
   const auto leaves = time_at(drive, own_.clear_m + car_.rear_m);
