@@ -37,11 +37,9 @@ constexpr duration figures_period = 1s;
 } // namespace
 
 driven_car::driven_car(car_setup setup)
-    : setup_{std::move(setup)}, s_m_{setup_.start_s_m},
-      lateral_m_{setup_.start_left_m} {
-  const auto p = setup_.way->path().at(s_m_);
-  const point left{-std::sin(p.heading_rad), std::cos(p.heading_rad)};
-  car_.at = p.at + setup_.start_left_m * left;
+    : setup_{std::move(setup)}, s_m_{setup_.start_s_m} {
+  const auto p = setup_.way->path().frame(s_m_);
+  car_.at = p.at + lateral_m_ * point{-p.tangent.y_m, p.tangent.x_m};
   car_.heading_rad = p.heading_rad + setup_.start_turn_rad;
   car_.speed_mps = setup_.start_speed_mps;
   safety_.station = setup_.station;

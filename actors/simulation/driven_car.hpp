@@ -123,8 +123,8 @@ private:
 
   car_setup setup_;
   world::vehicle_state car_;
-  double s_m_ = 0;       // of the rear axle on the route,
-  double lateral_m_ = 0; // and beside it
+  double s_m_ = 0;                         // of the rear axle on the route,
+  double lateral_m_ = setup_.start_left_m; // and beside it
   time_point at_;
   std::uint64_t steps_ = 0;
   std::shared_ptr<const world::trajectory> plan_;

@@ -12,7 +12,7 @@ namespace {
 constexpr duration compared_every = std::chrono::milliseconds{100};
 
 /// A way, and a time.
-constexpr double behind_m = 1.5, behind_s = 0.3;
+constexpr double unkept_m = 1.5, unkept_s = 0.3;
 
 double half_diagonal_m(const oriented_box& x) {
   return std::hypot(x.length_m, x.width_m) / 2;
@@ -39,7 +39,7 @@ oriented_box claimed_drive::at(time_point t) const {
 
 double most_behind_m(double speed_mps) {
   assert(std::isfinite(speed_mps));
-  return std::max(behind_m, behind_s * speed_mps);
+  return std::max(unkept_m, unkept_s * speed_mps);
 }
 
 bool overlap(const claimed_drive& a, const claimed_drive& b, duration apart) {
