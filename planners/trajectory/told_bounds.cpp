@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kept_to_s = 0.25;
 constexpr double told_gap_s = 0.6, told_gap_m = 2.5;
+/// Behind where it comes to rest: room to stop calmly.
+constexpr double standing_gap_m = 1.5;
 
 /// Who cannot keep to it comes later by so much at most, if it can. Without a
 /// bound a plan may wait for seconds at a place, which costs it nothing.
@@ -53,13 +55,18 @@ void told_bounds::follow(std::span<const way_moment> told, double age_s,
     return;
   windows_.clear();
   for (const auto& x : told) {
-    const auto way_m = way(x.s_m - front_m) - told_gap_m;
+    const auto is_last = &x == &told.back(); // it may stand there
+    const auto way_m =
+        way(x.s_m - front_m) - (is_last ? standing_gap_m : told_gap_m);
     if (way_m > 0
-        && (windows_.empty() || way_m > windows_.back().at_m + told_apart_m))
+        && (windows_.empty() || is_last
+            || way_m > windows_.back().at_m + told_apart_m))
       windows_.push_back(
           {way_m, x.t_s - age_s + told_gap_s, speed_constraints::never});
   }
   assert(windows_.size() <= told.size());
+  if (windows_.empty())
+    return; // too close to go by what it tells
   windows_.insert(windows_.end(), task.windows.begin(), task.windows.end());
   task.windows = windows_;
   task.ahead.reset();

@@ -24,8 +24,9 @@ public:
                const way_from_car& way, speed_constraints& task);
 
   /// Keeps the car 0.6 s and 2.5 m behind the rear of who leads, at the times
-  /// that this one tells, instead of behind a car at constant speed.
-  /// @param told     Rising; empty: nothing is changed.
+  /// that this one tells, instead of behind a car at constant speed; 1.5 m at
+  /// the last of its places, where it may stand.
+  /// @param told     Rising; empty, or all too close: nothing is changed.
   /// @param age_s    Since its times begin.
   /// @param front_m  Rear axle to front bumper of the own car.
   void follow(std::span<const way_moment> told, double age_s, double front_m,
