@@ -17,6 +17,9 @@ constexpr double claims_before_line_m = 1;
 /// Who has left the crossing in time but for this has kept its claim.
 constexpr double left_within_m = 5;
 
+/// Whose plan leaves the crossing so much later or sooner does not keep it.
+constexpr double leaves_late_s = 0.7;
+
 /// How a car sets off, ...
 constexpr double gets_going_mps2 = 1.25;
 
@@ -77,8 +80,8 @@ crossing_member::enters(const world::trajectory& drive) const {
   return time_at(drive, own_.line_m - car_.front_m);
 }
 
-/// @returns whether it comes to the crossing when the drive does, as far as the
-/// plan in use tells.
+/// @returns whether it comes to the crossing, and leaves it, when the drive
+/// does, as far as the plan in use tells.
 bool crossing_member::is_kept(time_point now,
                               const world::trajectory& drive) const {
   assert(own_.speed_mps >= 0 && std::isfinite(own_.line_m));
@@ -86,6 +89,11 @@ bool crossing_member::is_kept(time_point now,
   const auto line_m = own_.line_m - car_.front_m;
   if (own_.s_m > line_m)
     return true;
+  const auto clear_m = own_.clear_m + car_.rear_m;
+  const auto left = time_at(drive, clear_m);
+  const auto leaves = own_.plan ? time_at(*own_.plan, clear_m) : std::nullopt;
+  if (left && leaves && std::abs(to_seconds(*leaves - *left)) > leaves_late_s)
+    return false;
   const auto then = time_at(drive, line_m);
   const auto comes = own_.plan ? time_at(*own_.plan, line_m) : std::nullopt;
   if (!then)
@@ -106,6 +114,16 @@ bool crossing_member::is_behind(time_point now,
   assert(!drive.empty() && own_.speed_mps >= 0);
   const auto behind_m = drive.at(now).s_m - own_.s_m;
   return behind_m > most_behind_m(own_.speed_mps);
+}
+
+/// @returns whether it is on the crossing, and so far before a drive that this
+/// is not where it is.
+bool crossing_member::is_before(time_point now,
+                                const world::trajectory& drive) const {
+  assert(!drive.empty() && own_.speed_mps >= 0);
+  const auto before_m = own_.s_m - drive.at(now).s_m;
+  return own_.s_m + car_.front_m > own_.line_m
+         && before_m > most_behind_m(own_.speed_mps);
 }
 
 claimed_drive crossing_member::claim_of(const world::trajectory& drive) const {
@@ -188,7 +206,7 @@ void crossing_member::claim(time_point now, const world::trajectory& drive) {
       own_.s_m - car_.rear_m > own_.clear_m
       || drive.points.front().s_m - car_.rear_m > own_.clear_m;
   if (!at || has_left || done_m_ == own_.line_m || !is_kept(now, drive)
-      || is_behind(now, drive)
+      || is_behind(now, drive) || is_before(now, drive)
       || (*at - now > rules_.claims_before && can_stop()))
     return;
   const auto leaves = time_at(drive, own_.clear_m + car_.rear_m);

@@ -101,6 +101,7 @@ private:
   bool can_stop() const;
   bool is_kept(time_point now, const world::trajectory& drive) const;
   bool is_behind(time_point now, const world::trajectory& drive) const;
+  bool is_before(time_point now, const world::trajectory& drive) const;
   claimed_drive claim_of(const world::trajectory& drive) const;
   bool is_near(const claimed_drive& plan, point from) const;
   std::optional<time_point> enters(const world::trajectory& drive) const;

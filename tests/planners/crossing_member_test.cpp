@@ -176,6 +176,29 @@ TEST_CASE(
   CHECK(member.state() == state::free);
 }
 
+TEST_CASE("a drive that the own plan leaves behind on the crossing is not "
+          "claimed") {
+  crossing_member member{own_car, {}};
+  auto way = drive(20, 0);
+  for (auto& p : way.points) // as advised, it slows down there
+    if (p.s_m > line_m)
+      p.t_s += (p.s_m - line_m) / 10;
+  const auto plan = drive(20 + speed_mps * after_s, after_s);
+  member.advise(at(after_s), way);
+  member.move(at(after_s), here(20 + speed_mps * after_s, speed_mps, &plan));
+  CHECK(member.state() == state::free);
+}
+
+TEST_CASE("who is on the crossing claims no drive that begins behind it") {
+  for (const auto behind_m : {1.0, 8.0}) {
+    crossing_member member{own_car, {}};
+    const auto way = drive(105 - behind_m, 12), plan = drive(105, 12);
+    member.advise(at(12), way);
+    member.move(at(12), here(105, speed_mps, &plan));
+    CHECK((member.state() == state::free) == (behind_m > 2.4));
+  }
+}
+
 TEST_CASE("who is held up on the crossing gives its claim up, and claims anew "
           "what it is advised from there") {
   advised_car car{after_s};
