@@ -190,8 +190,13 @@ std::string_view scene_judge::wait(const own_knowledge& x,
                 return c.goes_first && c.from_m < until_m;
               });
   };
-  const auto has_reason =
-      is_held(x.scene) || (x.stop_at_m && *x.stop_at_m < until_m);
+  // Whether room is lacking beside a body, two find different by centimetres.
+  const auto is_tight = [&](const lane_obstacle& o) {
+    return o.lacks_m > 0 && o.from_m < until_m;
+  };
+  const auto has_reason = is_held(x.scene)
+                          || std::ranges::any_of(x.scene.beside, is_tight)
+                          || (x.stop_at_m && *x.stop_at_m < until_m);
   if (x.speed_mps > limits.waits_mps || has_reason || !is_held(told)) {
     waited_s_ = 0;
     return {};

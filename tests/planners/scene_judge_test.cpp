@@ -456,6 +456,19 @@ TEST_CASE("who waits for what it does not know of refuses that in the end") {
   CHECK(end->first == "waits");
 }
 
+TEST_CASE(
+    "who finds that centimetres are lacking to pass may be told to wait") {
+  told_drive_of_scenes x;
+  x.speed_mps = 0;
+  x.know(seen_track({215, 2}));
+  lane_obstacle tight{212, 217, 1.2, 3};
+  tight.lacks_m = 0.02;
+  x.own.beside = {tight};
+  driving_scene told;
+  told.lead = x.lead(212);
+  CHECK_FALSE(x.go_on(14, told));
+}
+
 TEST_CASE("nobody is told to be impatient who is not") {
   told_drive_of_scenes x;
   driving_scene told;
