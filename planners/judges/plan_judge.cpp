@@ -160,7 +160,7 @@ plan_judge::walk plan_judge::follow(const judged_plan& x) const {
   found.worst_m = found.beyond_m = -boundless;
   auto at_first_m = boundless, after_a_second_m = boundless;
   auto first_mps = 0.0, first_s_m = 0.0;
-  auto next_s = -limits.step_s;
+  auto next_s = 0.0;
   auto bounds = x.way.bounds_at(x.plan.points.front().s_m);
   for (const auto& p : x.plan.points) {
     const auto ahead_s = p.t_s - late_s;

@@ -144,9 +144,11 @@ inline path::place path::locate(double s_m) const {
     laps = std::floor(s_m / length_m_);
   const auto steps =
       std::clamp(s_m - laps * length_m_, 0.0, length_m_) * steps_per_m_;
-  const auto i = std::min(static_cast<std::size_t>(steps), table_.size() - 2);
-  return {table_[i], table_[i + 1],
-          std::min(steps - static_cast<double>(i), 1.0), laps};
+  // Signed numbers are converted in one instruction.
+  const auto last = static_cast<std::ptrdiff_t>(table_.size()) - 2;
+  const auto i = std::min(static_cast<std::ptrdiff_t>(steps), last);
+  const auto* low = table_.data() + i;
+  return {low[0], low[1], std::min(steps - static_cast<double>(i), 1.0), laps};
 }
 
 inline path_point path::at(const place& x) const {

@@ -88,10 +88,12 @@ trajectory_point trajectory::at(double t_s) const {
     return points.front();
   if (t_s >= points.back().t_s)
     return points.back();
-  const auto last = points.size() - 2;
+  // Signed numbers are converted in one instruction.
+  const auto last = static_cast<std::ptrdiff_t>(points.size()) - 2;
   const auto steps = t_s / points[1].t_s;
-  const auto i = std::min(static_cast<std::size_t>(steps), last);
-  return between(points[i], points[i + 1],
+  const auto i = std::min(static_cast<std::ptrdiff_t>(steps), last);
+  const auto* low = points.data() + i;
+  return between(low[0], low[1],
                  std::clamp(steps - static_cast<double>(i), 0.0, 1.0));
 }
 
