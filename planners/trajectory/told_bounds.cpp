@@ -23,6 +23,8 @@ constexpr double told_apart_m = 1.0;
 
 /// Where a car waits it may stop with its axle so much farther on.
 constexpr double rests_within_m = 0.6;
+/// How who is farther already stops.
+constexpr double rests_mps2 = 1;
 
 } // namespace
 
@@ -42,9 +44,12 @@ void told_bounds::keep_to(const agreed_drive& agreed, double age_s,
   task.promised = promised_;
   task.promised_from_m = way(agreed.binds_from_m);
   task.sooner_s = task.later_s = kept_to_s;
-  if (agreed.waits_at_m)
-    task.stop_m = std::min(task.stop_m, std::max(0.0, way(*agreed.waits_at_m))
-                                            + rests_within_m);
+  if (agreed.waits_at_m) {
+    const auto stops_m = task.speed_mps * task.speed_mps / (2 * rests_mps2);
+    task.stop_m =
+        std::min(task.stop_m,
+                 std::max(stops_m, way(*agreed.waits_at_m) + rests_within_m));
+  }
 }
 
 void told_bounds::follow(std::span<const way_moment> told, double age_s,

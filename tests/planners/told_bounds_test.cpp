@@ -40,3 +40,18 @@ TEST_CASE("a lead whose places are all too close is followed as it is seen") {
   CHECK(task.ahead);
   CHECK(task.windows.empty());
 }
+
+TEST_CASE("who stands farther than its drive waits does not creep on") {
+  told_bounds bounds;
+  agreed_drive waiting;
+  waiting.waits_at_m = 69; // a metre behind its rear axle
+  speed_constraints task;
+  bounds.keep_to(waiting, 0, way, task);
+  CHECK(task.stop_m == 0);
+
+  waiting.waits_at_m = 75;
+  task = {};
+  bounds.keep_to(waiting, 0, way, task);
+  CHECK(task.stop_m > 5);
+  CHECK(task.stop_m < 6);
+}
