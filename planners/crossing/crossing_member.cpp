@@ -190,7 +190,8 @@ void crossing_member::move(time_point now, const place& own) {
   // Until a claim binds its owner waits at the line, so it can stop.
   const auto may_stop = can_stop() || book_.is() == claim_book::state::claimed;
   if (book_.is() != claim_book::state::free
-      && (is_behind(now, claimed_) || (may_stop && !is_kept(now, claimed_))))
+      && (is_behind(now, claimed_) || is_before(now, claimed_)
+          || (may_stop && !is_kept(now, claimed_))))
     book_.give_up();
   follow_claim(now);
   if (book_.is() == claim_book::state::free && advised_)

@@ -162,6 +162,15 @@ TEST_CASE("who is farther behind its claim than others allow for gives it up, "
   CHECK(car.member.state() == state::free);
 }
 
+TEST_CASE("who is on the crossing before its claim says gives it up") {
+  advised_car car{after_s};
+  REQUIRE(car.member.state() == state::bound);
+  car.member.end_advice();
+  const auto fast = drive(107, 10);
+  car.member.move(at(10), here(107, speed_mps, &fast)); // 7 m before it
+  CHECK(car.member.state() == state::free);
+}
+
 TEST_CASE(
     "who brakes for its line, as its claim does not bind yet, gives it up "
     "when it will be late") {
