@@ -125,8 +125,13 @@ std::optional<duration> service_state::safe_response(time_point now) const {
   if (!scene)
     return std::nullopt;
   assert(scene->at <= now);
-  const auto is_old = now - scene->at > 2 * service.options.input_period;
-  return is_old ? duration{0} : scene->safe_response;
+  const auto& options = service.options;
+  if (service.follows.view().empty()) // what it detects has to be there
+    return now - scene->at > 2 * options.input_period ? duration{0}
+                                                      : scene->safe_response;
+  // What was told counts while it is new; its silence is the watchdog's.
+  const auto is_new = now - scene->at <= 2 * options.period;
+  return is_new ? std::optional{scene->safe_response} : std::nullopt;
 }
 
 duration service_state::computing(const messages::service_offer& offer) const {

@@ -111,7 +111,9 @@ TEST_CASE_FIXTURE(three_and_one, "the scene is as safe as the service says "
   named("last").scene = {at(1s), 600ms};
   CHECK(safe(1s) == 600ms);
   named("first").scene = {at(2s), 500ms};
-  CHECK(safe(2s) == 0ms); // the last one has not looked for a while
+  CHECK(safe(2s) == 500ms); // what the last one was told is old
+  named("last").scene = {at(3s), 600ms};
+  CHECK(safe(3s) == 0ms); // the first one has not looked for a while
 }
 
 TEST_CASE_FIXTURE(three_and_one, "before the service that looks at the scene "

@@ -102,11 +102,12 @@ public:
 
   bool looks_at_scenes() const override { return true; }
 
-  /// In a chain its first service looks.
+  /// In a chain its first service looks at detections, and this one at the
+  /// scene: the shorter time counts.
   std::optional<offloading::safe_response>
   look_at_scene(const messages::service_input& latest) const override {
     const auto request = latest.what.as<plan_request>();
-    return request && request->found.scene ? std::nullopt
+    return request && request->found.scene ? look_at_told(latest, *world_)
                                            : look_at(latest, *world_);
   }
 

@@ -2,7 +2,7 @@
 #include "actors/services/planning/scene_look.hpp"
 
 #include "actors/services/planning/plan_request.hpp"
-#include "planners/safety/safe_response.hpp"
+#include "planners/safety/scene_response.hpp"
 
 #include <vector>
 
@@ -24,6 +24,15 @@ widened(std::vector<world::perceived_object> seen,
   return seen;
 }
 
+/// No service that may respond later than this is offloaded.
+constexpr auto most_s = 5.0;
+
+bool has_priority(const plan_request& request, const planning_world& world) {
+  const auto& agreed = request.crossing;
+  return world.crossings_granted
+         || (agreed && agreed->binds && !agreed->drive.empty());
+}
+
 } // namespace
 
 std::optional<offloading::safe_response>
@@ -32,11 +41,7 @@ look_at(const messages::service_input& latest, const planning_world& world) {
   const auto way = request ? world.streets->find(request->way) : nullptr;
   if (!way)
     return std::nullopt;
-  // No service that may respond later than this is offloaded.
-  constexpr auto most_s = 5.0;
   const auto& own = request->from;
-  const auto& agreed = request->crossing;
-  const auto binds = agreed && agreed->binds && !agreed->drive.empty();
   const auto objects = widened(request->seen.objects, world.eyes);
   const planners::safety_scene scene{.way = *way,
                                      .s_m = own.s_m,
@@ -46,9 +51,25 @@ look_at(const messages::service_input& latest, const planning_world& world) {
                                      .objects = objects,
                                      .stop_at_m = request->stop_at_m(world.car),
                                      .has_priority =
-                                         world.crossings_granted || binds};
+                                         has_priority(*request, world)};
   const auto found =
       planners::longest_safe_response(scene, world.rss, world.car, most_s);
+  return offloading::safe_response{from_seconds(found.longest_s),
+                                   found.because};
+}
+
+std::optional<offloading::safe_response>
+look_at_told(const messages::service_input& latest,
+             const planning_world& world) {
+  const auto request = latest.what.as<plan_request>();
+  if (!request || !request->found.scene)
+    return std::nullopt;
+  const auto& own = request->from;
+  const auto found = planners::longest_safe_response(
+      request->found.scene->scene,
+      {own.s_m, own.d_m, own.heading_error_rad, own.speed_mps,
+       has_priority(*request, world)},
+      world.rss, world.car, most_s);
   return offloading::safe_response{from_seconds(found.longest_s),
                                    found.because};
 }

@@ -1,4 +1,4 @@
-// How late a vehicle may respond to what it sees itself.
+// How late a vehicle may respond to what it sees itself, or is told.
 #pragma once
 
 #include "actors/services/planning/planning_world.hpp"
@@ -12,5 +12,11 @@ namespace sofof::actors {
 /// @returns nothing if that is no `plan_request`, or its route is not known.
 std::optional<offloading::safe_response>
 look_at(const messages::service_input& latest, const planning_world& world);
+
+/// The same, for the scene that goes into planning in a chain.
+/// @returns nothing if there is none.
+std::optional<offloading::safe_response>
+look_at_told(const messages::service_input& latest,
+             const planning_world& world);
 
 } // namespace sofof::actors
