@@ -120,9 +120,9 @@ TEST_CASE_FIXTURE(chain_of_three,
 }
 
 TEST_CASE("of very many splits not all are looked at") {
-  std::vector<std::vector<service_place>> places(3, {{}, 1, 2, 3, 4});
+  std::vector<std::vector<service_place>> places(4, {{}, 1, 2, 3, 4, 5});
   CHECK(is_few(places));
-  places[0].emplace_back(5);
+  places[0].emplace_back(6);
   CHECK_FALSE(is_few(places));
   places.resize(70, std::vector<service_place>(2));
   CHECK_FALSE(is_few(places));

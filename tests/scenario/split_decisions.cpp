@@ -43,12 +43,14 @@ double measured(std::span<const chain_link> chain, const chain_split& split,
     const auto& x = chain[k];
     const auto every =
         x.times.period > duration{0} ? x.times.period : protocol::sensor_period;
-    auto energy_j = x.on_board.energy_j;
+    auto service_w = x.on_board.energy_j / to_seconds(every);
     if (split[k])
       for (const auto& there : x.providers)
         if (there.id == *split[k])
-          energy_j = there.cost.energy_j;
-    spent_w += energy_j / to_seconds(every);
+          service_w = x.resting_j / to_seconds(every)
+                      + there.cost.energy_j
+                            / to_seconds(std::max(every, x.times.input_period));
+    spent_w += service_w;
     times.push_back(x.times);
   }
   if (by == split_measure::energy && split == chain_split(chain.size()))

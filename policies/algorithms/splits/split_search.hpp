@@ -9,9 +9,9 @@
 
 namespace sofof::policies {
 
-/// So many splits can be looked at for one decision: of four services over two
-/// providers, or of three over four.
-inline constexpr std::size_t most_looked_at = 128;
+/// So many splits can be looked at for one decision: of four services over five
+/// providers, or of three over nine.
+inline constexpr std::size_t most_looked_at = 1296;
 
 /// @returns whether there are no more splits than that.
 bool is_few(std::span<const std::vector<service_place>> places);
