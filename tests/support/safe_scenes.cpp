@@ -374,7 +374,8 @@ private:
 
   void tell(std::size_t k, std::string_view what, scene_findings& out) const {
     const auto& me = me_[k];
-    if (out.first.empty())
+    // Who braked late counts for more than who only left home.
+    if (out.first.empty() || (what == "late" && !out.first.starts_with(what)))
       out.first = fmt::format(
           "{}: vehicle {} at {:.2f} s, less since {:.2f} s, {}, {:.1f} m/s, "
           "{:.1f} m/s2, safe under {:.3f} s",
@@ -440,7 +441,10 @@ std::string scene_text(std::uint64_t seed, const scene_policy& how) {
             "[[service]]\nname = \"environment_model\"\n";
   text += fmt::format("[[service]]\nname = \"{}\"\nrss = {{ proper_response = "
                       "\"{}ms\" }}\n{}{}",
-                      planning_name, how.is_chain ? 450 : 350,
+                      planning_name,
+                      how.is_plain   ? 0
+                      : how.is_chain ? 450
+                                     : 350,
                       how.is_chain ? "input_period = \"50ms\"\n" : "",
                       how.is_slow ? slow_limits : "");
   return text + drawn_air(of.part("air"), how.is_slow)

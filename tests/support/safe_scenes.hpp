@@ -21,6 +21,7 @@ std::string_view name_of(scene_kind kind);
 struct scene_policy {
   std::string_view lodm = "rss"; ///< Behind `location`; or that, or "never".
   bool is_slow = false;  ///< Channel and limits allow for more than 1 s.
+  bool is_plain = false; ///< At home nobody responds properly.
   bool is_chain = false; ///< Tracking and the environment model, too.
 };
 

@@ -1,6 +1,6 @@
 // Drives scenes and prints what they showed, for tests/acceptance/chain/rule.
 //
-//   scenes FIRST COUNT [POLICY] [slow] [chain] [text]
+//   scenes FIRST COUNT [POLICY] [slow] [chain] [plain] [text]
 //
 // POLICY: rss, location or never. A line for each scene of which something is
 // to be told, and one of sums: NAME=VALUE ...
@@ -23,7 +23,9 @@ int main(int count, char** words) {
   const auto says = [&](std::string_view word) {
     return std::ranges::find(said, word) != said.end();
   };
-  scene_policy how{.is_slow = says("slow"), .is_chain = says("chain")};
+  scene_policy how{.is_slow = says("slow"),
+                   .is_plain = says("plain"),
+                   .is_chain = says("chain")};
   for (const auto* lodm : {"location", "never"})
     if (says(lodm))
       how.lodm = lodm;
