@@ -3,6 +3,7 @@
 #include "offloading/qos_monitor.hpp"
 #include "offloading/source_selector.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 #include <vector>
@@ -15,7 +16,7 @@ void source_selector::look_at_scene(time_point now) {
     return;
   assert(found->longest >= duration{0});
   if (options().latency_by_scene)
-    limit_by_scene(found->longest, now);
+    limit_by_scene(found->longest - found->age, now);
   assert(!found->because.empty());
   port_.report_safe_response(found->longest);
   messages::scene_record seen{.at = now,
@@ -29,8 +30,8 @@ void source_selector::look_at_scene(time_point now) {
 }
 
 // Those that wait for their first result wait on: the scene may allow it then.
+// What it leaves may be negative: the scene is older than it allows.
 void source_selector::limit_by_scene(duration safe, time_point now) {
-  assert(safe >= duration{0});
   const auto limits = limits_in_scene(on(setup_.computer, options()), safe);
   if (limits && limits != limits_)
     port_.watch_limits(*limits);
@@ -44,12 +45,13 @@ void source_selector::limit_by_scene(duration safe, time_point now) {
   for (const auto& session : used) {
     on_end({session, messages::end_reason::released, messages::side::requester},
            now);
-    port_.report({session,
-                  messages::qos_breach::scene,
-                  now,
-                  true,
-                  in_words("safe_response", safe, duration{0}),
-                  {}});
+    port_.report(
+        {session,
+         messages::qos_breach::scene,
+         now,
+         true,
+         in_words("safe_response", std::max(safe, duration{0}), duration{0}),
+         {}});
   }
   assert(!is_remote());
 }

@@ -123,6 +123,8 @@ struct vehicle_context {
 struct safe_response {
   duration longest{};
   std::string_view because; ///< Who or what asks for no longer one; a literal.
+  /// Of the scene, when the input was made: in a chain it was sensed before.
+  duration age{};
 };
 
 /// A service in one vehicle. It says the same whenever it is asked: where time

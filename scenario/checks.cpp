@@ -105,24 +105,17 @@ void check_chain(const scenario_definition& all, const toml_file& source) {
   }
 }
 
-/// Only who looks at the scene can be limited by it, and in a chain that is not
-/// the one whose plans are used.
+/// Only who looks at the scene can be limited by it.
 void check_scene_limits(const scenario_definition& all,
                         const toml_file& source) {
   for (std::size_t k = 0; k < all.services.size(); ++k) {
     const auto& type = *all.services[k];
     if (!type.options.latency_by_scene)
       continue;
-    const auto refuse = [&](std::string_view why) {
-      source.refuse(fmt::format("service.{}.max_latency", k),
-                    fmt::format("max_latency = \"scene\" is for "
-                                "trajectory_planning {}; say a time.",
-                                why));
-    };
     if (!type.plans())
-      refuse("alone, which looks at the scene");
-    if (find_service(all, type.follows()))
-      refuse("without a chain, in which tracking looks at the scene");
+      source.refuse(fmt::format("service.{}.max_latency", k),
+                    "max_latency = \"scene\" is for trajectory_planning alone, "
+                    "which looks at the scene; say a time.");
   }
 }
 

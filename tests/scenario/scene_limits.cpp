@@ -43,6 +43,14 @@ max_latency_floor = "250ms"
 max_input_age = "2s"
 )";
 
+/// The services before planning, at home or at the provider.
+constexpr auto chain_before = R"(
+[[service]]
+name = "tracking"
+[[service]]
+name = "environment_model"
+)";
+
 constexpr auto gap = 100ms, run_time = 45ms, least = 250ms, cap = 600ms;
 
 } // namespace
@@ -78,4 +86,26 @@ TEST_CASE("where the scene limits results, none is used that is older than the "
   for (const auto& x : run.episodes)
     if (x.of == side::requester && x.because.starts_with("safe_response"))
       CHECK(x.reason == end_reason::released);
+}
+
+TEST_CASE(
+    "in a chain the scene that planning gets is older, and leaves so much "
+    "less") {
+  const auto drive = [](std::string_view more) {
+    auto text = std::string{scene_limited};
+    text.insert(text.find("[[service]]"), more);
+    return play(scenario::parse_scenario(
+        text, std::filesystem::path{SOFOF_SOURCE_DIR} / "config/scene.toml",
+        {}));
+  };
+  const auto run = drive(chain_before);
+  CHECK(run.collisions.empty());
+  std::size_t used = 0;
+  for (const auto& x : run.cycles)
+    if (x.used && x.session.is_remote()
+        && x.session.service == service_name{"trajectory_planning"}) {
+      ++used;
+      CHECK(x.received - x.created <= cap);
+    }
+  CHECK(used > 100);
 }

@@ -102,13 +102,18 @@ public:
 
   bool looks_at_scenes() const override { return true; }
 
-  /// In a chain its first service looks at detections, and this one at the
-  /// scene: the shorter time counts.
+  /// At what the vehicle detects; in a chain at the scene as well.
   std::optional<offloading::safe_response>
   look_at_scene(const messages::service_input& latest) const override {
-    const auto request = latest.what.as<plan_request>();
-    return request && request->found.scene ? look_at_told(latest, *world_)
-                                           : look_at(latest, *world_);
+    const auto own = look_at(latest, *world_);
+    auto told = look_at_told(latest, *world_);
+    if (!told || !own)
+      return own;
+    if (own->longest < told->longest) {
+      told->longest = own->longest;
+      told->because = own->because;
+    }
+    return told;
   }
 
   messages::payload

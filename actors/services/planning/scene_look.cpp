@@ -4,6 +4,7 @@
 #include "actors/services/planning/plan_request.hpp"
 #include "planners/safety/scene_response.hpp"
 
+#include <algorithm>
 #include <vector>
 
 namespace sofof::actors {
@@ -70,8 +71,9 @@ look_at_told(const messages::service_input& latest,
       {own.s_m, own.d_m, own.heading_error_rad, own.speed_mps,
        has_priority(*request, world)},
       world.rss, world.car, most_s);
-  return offloading::safe_response{from_seconds(found.longest_s),
-                                   found.because};
+  const auto age = latest.at - request->found.scene->scene.at;
+  return offloading::safe_response{from_seconds(found.longest_s), found.because,
+                                   std::max(age, duration{0})};
 }
 
 } // namespace sofof::actors
