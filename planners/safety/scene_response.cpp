@@ -15,8 +15,9 @@ struct own_width {
 };
 
 own_width width_of(const scene_viewer& me, const world::vehicle_params& car) {
+  assert(std::isfinite(me.d_m) && std::isfinite(me.turned_rad));
   const auto sine = std::sin(me.turned_rad);
-  const auto half_m = car.width_m / 2 * std::cos(me.turned_rad);
+  const auto half_m = car.width_m / 2 * std::abs(std::cos(me.turned_rad));
   const auto front_m = car.front_m * sine, rear_m = -car.rear_m * sine;
   return {me.d_m + std::min(front_m, rear_m) - half_m,
           me.d_m + std::max(front_m, rear_m) + half_m};
@@ -25,6 +26,7 @@ own_width width_of(const scene_viewer& me, const world::vehicle_params& car) {
 safe_response beside(const lane_obstacle& o, const scene_viewer& me,
                      const own_width& own, double front_m,
                      const rss_assumptions& assumed) {
+  assert(std::isfinite(front_m) && own.right_m <= own.left_m);
   const auto is_left = o.low_m + o.high_m > own.right_m + own.left_m;
   const auto gap_m = is_left ? o.low_m - own.left_m : own.right_m - o.high_m;
   const auto nearing_mps =

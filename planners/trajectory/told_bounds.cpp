@@ -30,7 +30,8 @@ constexpr double rests_mps2 = 1;
 
 void told_bounds::keep_to(const agreed_drive& agreed, double age_s,
                           const way_from_car& way, speed_constraints& task) {
-  assert(std::isfinite(age_s));
+  assert(std::isfinite(age_s) && task.speed_mps >= 0);
+  assert(std::ranges::is_sorted(agreed.axle, {}, &way_moment::s_m));
   promised_.clear();
   for (const auto& x : agreed.axle) {
     const auto way_m = way(x.s_m);

@@ -105,15 +105,7 @@ public:
   /// At what the vehicle detects; in a chain at the scene as well.
   std::optional<offloading::safe_response>
   look_at_scene(const messages::service_input& latest) const override {
-    const auto own = look_at(latest, *world_);
-    auto told = look_at_told(latest, *world_);
-    if (!told || !own)
-      return own;
-    if (own->longest < told->longest) {
-      told->longest = own->longest;
-      told->because = own->because;
-    }
-    return told;
+    return look_at_all(latest, *world_);
   }
 
   messages::payload

@@ -60,20 +60,24 @@ look_at(const messages::service_input& latest, const planning_world& world) {
 }
 
 std::optional<offloading::safe_response>
-look_at_told(const messages::service_input& latest,
-             const planning_world& world) {
+look_at_all(const messages::service_input& latest,
+            const planning_world& world) {
+  const auto seen = look_at(latest, world);
   const auto request = latest.what.as<plan_request>();
-  if (!request || !request->found.scene)
-    return std::nullopt;
+  if (!seen || !request->found.scene)
+    return seen;
   const auto& own = request->from;
-  const auto found = planners::longest_safe_response(
-      request->found.scene->scene,
+  const auto& scene = request->found.scene->scene;
+  const auto told = planners::longest_safe_response(
+      scene,
       {own.s_m, own.d_m, own.heading_error_rad, own.speed_mps,
        has_priority(*request, world)},
       world.rss, world.car, most_s);
-  const auto age = latest.at - request->found.scene->scene.at;
-  return offloading::safe_response{from_seconds(found.longest_s), found.because,
-                                   std::max(age, duration{0})};
+  const auto age = std::max(latest.at - scene.at, duration{0});
+  const auto longest = from_seconds(told.longest_s);
+  return longest < seen->longest
+             ? offloading::safe_response{longest, told.because, age}
+             : offloading::safe_response{seen->longest, seen->because, age};
 }
 
 } // namespace sofof::actors

@@ -13,10 +13,9 @@ namespace sofof::actors {
 std::optional<offloading::safe_response>
 look_at(const messages::service_input& latest, const planning_world& world);
 
-/// The same, for the scene that goes into planning in a chain.
-/// @returns nothing if there is none.
+/// The same; in a chain for the scene that goes into planning as well: the
+/// shorter time counts.
 std::optional<offloading::safe_response>
-look_at_told(const messages::service_input& latest,
-             const planning_world& world);
+look_at_all(const messages::service_input& latest, const planning_world& world);
 
 } // namespace sofof::actors
