@@ -75,9 +75,9 @@ std::vector<std::string> changes_of(std::string_view split,
 
 /// How a vehicle drives in the two seconds after a change.
 struct ride_after {
-  int hard_brakes = 0;  ///< That begin.
-  double lateral_m = 0; ///< The farthest beside its lane's centre.
-  double jump_m = 0;    ///< From the plan before to the first own one.
+  int hard_brakes = 0;   ///< That begin.
+  double off_plan_m = 0; ///< The farthest from where its plan in use has it.
+  double jump_m = 0;     ///< From the plan before to the first own one.
 };
 
 ride_after ride_of(const watched_run& run, const change_home& change) {
@@ -90,7 +90,9 @@ ride_after ride_of(const watched_run& run, const change_home& change) {
     const auto hard = x.ego.own.accel_mps2 < world::ride_comfort::hard_mps2;
     of.hard_brakes += hard && !brakes;
     brakes = hard;
-    of.lateral_m = std::max(of.lateral_m, std::abs(x.lateral_m));
+    if (x.plan && !x.plan->empty())
+      of.off_plan_m = std::max(
+          of.off_plan_m, distance_m(x.plan->at(x.at).at, x.ego.own.position));
   }
   for (const auto& x : run.records.plan_switches)
     if (x.session.station == change.station && !x.remote && x.at >= change.at
@@ -104,11 +106,12 @@ void print(const watched_run& run) {
     const auto ride = ride_of(run, x);
     std::cout << fmt::format(
         "change station={} t={:.3f} reason={} first_ms={} tracks_m={:.4f} "
-        "scene_m={:.4f} plan_m={:.4f} hard={} lateral_m={:.4f} jump_m={:.4f}\n",
+        "scene_m={:.4f} plan_m={:.4f} hard={} off_plan_m={:.4f} "
+        "jump_m={:.4f}\n",
         x.station, to_seconds(x.at.time_since_epoch()), x.reason,
         x.first ? fmt::format("{:.3f}", 1e3 * to_seconds(*x.first)) : "none",
         x.plan.tracks_apart_m, x.plan.scene_apart_m, x.plan.plan_apart_m,
-        ride.hard_brakes, ride.lateral_m, ride.jump_m);
+        ride.hard_brakes, ride.off_plan_m, ride.jump_m);
   }
   double without_plan_s = 0;
   std::uint64_t along = 0, on_board = 0;
