@@ -19,6 +19,8 @@ namespace {
 
 /// Numbers that are milliseconds under which the scene is safe; 0: unknown.
 struct numbers_of_a_scene final : offloading::vehicle_service {
+  explicit numbers_of_a_scene(duration its_age = {}) : age{its_age} {}
+
   std::shared_ptr<offloading::service_function> make_function() const override {
     return nullptr;
   }
@@ -28,8 +30,10 @@ struct numbers_of_a_scene final : offloading::vehicle_service {
     if (number == 0)
       return std::nullopt;
     return offloading::safe_response{std::chrono::milliseconds{number},
-                                     "follow"};
+                                     "follow", age};
   }
+
+  duration age; // of the scene, when an input is made of it
 };
 
 /// A service whose scene says how late its results may be: 50 ms at most, 20 ms
@@ -40,14 +44,14 @@ struct limited_by_scene {
   source_selector selector;
   std::uint64_t cycle = 0;
 
-  static offloading::selector_setup setup() {
+  static offloading::selector_setup setup(duration age) {
     auto made = numbers_setup();
-    made.service.own = std::make_shared<numbers_of_a_scene>();
+    made.service.own = std::make_shared<numbers_of_a_scene>(age);
     made.service.options.latency_by_scene = true;
     made.service.options.latency_floor = 20ms;
     return made;
   }
-  limited_by_scene() : selector{setup(), port} {}
+  explicit limited_by_scene(duration age = {}) : selector{setup(age), port} {}
 
   lines scene(int safe_ms, duration t) {
     port.lines.clear();
@@ -113,6 +117,14 @@ TEST_CASE_FIXTURE(limited_by_scene, "where the scene says how late results may "
   CHECK(port.detail.starts_with("latency value_ms=41"));
   CHECK(scene(900, 200ms) == lines{"limits: 50 ms, input 500 ms"});
   CHECK(result(210ms, 41ms) == lines{"use A"});
+}
+
+TEST_CASE("a scene that was sensed before its input leaves so much less") {
+  limited_by_scene x{30ms};
+  x.begin();
+  CHECK(x.scene(170, 50ms) == lines{"limits: 40 ms, input 40 ms"});
+  CHECK(x.scene(149, 100ms).back() == "violation: A");
+  CHECK(x.port.safe == 149ms); // policies add up the times of the chain
 }
 
 TEST_CASE_FIXTURE(limited_by_scene, "a scene that allows for no result brings "

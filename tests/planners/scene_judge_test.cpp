@@ -456,8 +456,7 @@ TEST_CASE("who waits for what it does not know of refuses that in the end") {
   CHECK(end->first == "waits");
 }
 
-TEST_CASE(
-    "who finds that centimetres are lacking to pass may be told to wait") {
+TEST_CASE("who lacks centimetres to pass may be told to wait") {
   told_drive_of_scenes x;
   x.speed_mps = 0;
   x.know(seen_track({215, 2}));

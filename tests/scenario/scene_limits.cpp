@@ -89,16 +89,12 @@ TEST_CASE("where the scene limits results, none is used that is older than the "
 }
 
 TEST_CASE(
-    "in a chain the scene that planning gets is older, and leaves so much "
-    "less") {
-  const auto drive = [](std::string_view more) {
-    auto text = std::string{scene_limited};
-    text.insert(text.find("[[service]]"), more);
-    return play(scenario::parse_scenario(
-        text, std::filesystem::path{SOFOF_SOURCE_DIR} / "config/scene.toml",
-        {}));
-  };
-  const auto run = drive(chain_before);
+    "where the scene limits results in a chain, none is used that is older "
+    "than the cap") {
+  auto text = std::string{scene_limited};
+  text.insert(text.find("[[service]]"), chain_before);
+  const auto run = play(scenario::parse_scenario(
+      text, std::filesystem::path{SOFOF_SOURCE_DIR} / "config/scene.toml", {}));
   CHECK(run.collisions.empty());
   std::size_t used = 0;
   for (const auto& x : run.cycles)
