@@ -11,6 +11,10 @@ namespace sofof::offloading {
 
 namespace {
 
+// More cycles ahead of the grid for inputs that say `at_once`: two services
+// before it may come home at one moment.
+constexpr std::uint64_t most_besides = 2;
+
 // @returns the first moment after `t` on the grid phase + k · period.
 time_point next_on_grid(time_point t, duration phase, duration period) {
   const auto since = t.time_since_epoch() - phase;
@@ -119,7 +123,7 @@ void service_cycle::begin(time_point now) {
   assert(state_ == messages::lifecycle_state::active);
   assert(!has_timer_);
   if (waits_for_input()) {
-    run(now);
+    run(now, newest_.at_once);
     return;
   }
   await_next(now);
@@ -150,7 +154,7 @@ void service_cycle::run(time_point now, bool is_besides) {
   const auto cycle =
       std::max(on_grid, is_called ? after_any_ : after_off_grid_);
   assert(cycle >= on_grid);
-  const auto is_ahead = cycle > on_grid + 1 + (is_besides ? 1 : 0);
+  const auto is_ahead = cycle > on_grid + 1 + (is_besides ? most_besides : 0);
   if (newest_.what.empty() || is_ahead)
     return;
   end_last();

@@ -61,8 +61,9 @@ public:
 ///   grid (or on its grid only), always from the newest input; without any
 ///   input it waits.
 /// * While it stands by, or if each input has one result, it runs one cycle for
-///   each input, at once, but at most one more than the grid has by then; so it
-///   does, besides its grid, for an input that says `at_once`.
+///   each input, at once, but at most one more than the grid has by then. For
+///   an input that says `at_once` it may be three ahead, and is run besides the
+///   grid, too; then the grid waits until it has caught up with it.
 /// * A cycle that takes longer than a period does not delay the next one in
 ///   virtual time (`finish` says when each is done, a wait for a worker
 ///   included); where time is real, it does, and what the grid had meanwhile

@@ -170,6 +170,27 @@ TEST_CASE_FIXTURE(cycle_world, "an input that says so begins a cycle at once, "
   CHECK(results[0].second.cycle < results[1].second.cycle);
 }
 
+TEST_CASE_FIXTURE(cycle_world, "inputs that say so have two cycles more than "
+                               "one that stands by, and no third one") {
+  feed(1, true);
+  activate();
+  feed(2, true);
+  for (std::uint64_t k = 3; k < 6; ++k)
+    cycle.on_input({.session = {1, 101, "echo", 7},
+                    .at = now,
+                    .what = payload::of(echo{k}),
+                    .standby = true,
+                    .at_once = true},
+                   now);
+  CHECK(results.size() == 4);
+  run_for(100ms);
+  feed(6, true);
+  CHECK(results.size() == 4); // the grid has not caught up
+  run_for(50ms);
+  feed(7, true);
+  CHECK(results.size() == 5);
+}
+
 TEST_CASE_FIXTURE(cycle_world, "numbers of cycles rise, and follow the grid "
                                "when a period was not used") {
   feed(1);

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -47,6 +48,8 @@ struct watched_vehicle {
   /// What that chain has found; by the look, and by the moment it describes.
   std::map<time_point, std::shared_ptr<const actors::known_tracks>> tracks;
   std::map<time_point, std::shared_ptr<const actors::known_scene>> scenes;
+  /// The latest that the vehicle's own tracking has found.
+  std::deque<std::shared_ptr<const actors::known_tracks>> own_tracks;
   messages::payload in_use; ///< Plan, as a provider was told.
   /// The latest plan of its own planner; null: it does not go on from that.
   std::shared_ptr<const world::trajectory> own;
@@ -117,6 +120,11 @@ public:
   run(time_point now, const messages::service_input& input) override {
     const auto before = goes_on_from(input);
     auto made = real_->run(now, input);
+    if (auto x = made.what.as<actors::known_tracks>()) {
+      vehicle_.own_tracks.push_back(std::move(x));
+      if (vehicle_.own_tracks.size() > most_kept)
+        vehicle_.own_tracks.pop_front();
+    }
     follow(now, input, before, &made);
     return made;
   }
@@ -127,6 +135,8 @@ public:
   }
 
 private:
+  static constexpr std::size_t most_kept = 40;
+
   /// @returns the plan that the own planner goes on from.
   messages::payload goes_on_from(const messages::service_input& input) const {
     const auto in_use = input.in_use.as<world::trajectory>();
@@ -170,8 +180,9 @@ private:
                const world::trajectory& there) {
     home_plan found;
     const auto& scene = request.found.scene;
-    found.is_whole = scene && scene->made_of && request.found.scene_by == 0
-                     && request.found.tracks_by == 0;
+    found.is_whole = scene && request.found.scene_by == 0
+                     && std::ranges::find(vehicle_.own_tracks, scene->made_of)
+                            != vehicle_.own_tracks.end();
     if (found.is_whole && mine.found.scene) {
       found.tracks_apart_m =
           apart_m(scene->made_of->all, mine.found.scene->made_of->all);
@@ -185,7 +196,7 @@ private:
   static void keep(std::map<time_point, std::shared_ptr<const T>>& all,
                    time_point at, std::shared_ptr<const T> what) {
     all[at] = std::move(what);
-    if (all.size() > 40)
+    if (all.size() > most_kept)
       all.erase(all.begin());
   }
 
@@ -349,7 +360,8 @@ struct change_home {
   /// Until the first plan of its own tracks and scene was in use; nullopt: the
   /// run was over, or a service had left again.
   std::optional<duration> first{};
-  home_plan plan{}; ///< That one.
+  std::optional<duration> left{}; ///< Until a service left again, if any did.
+  home_plan plan{};               ///< That one.
 };
 
 /// @returns all of them, by time.
@@ -373,16 +385,15 @@ inline std::vector<change_home> changes_home(const watched_run& run) {
       all.push_back({step.station, step.at, why[step.station]});
     else if (!all.empty()) // leaves again: nothing is measured beyond
       for (auto& x : all)
-        if (x.station == step.station && !x.first)
-          x.first = step.at - x.at;
+        if (x.station == step.station && !x.left)
+          x.left = step.at - x.at;
   }
   for (auto& x : all) {
-    const auto left = std::exchange(x.first, std::nullopt);
     const auto& vehicle = run.vehicles.at(x.station);
     for (const auto& used : vehicle.used) {
       if (used.at < x.at || used.remote)
         continue;
-      if (left && used.at - x.at >= *left)
+      if (x.left && used.at - x.at >= *x.left)
         break;
       const auto made = vehicle.plans.find(used.start);
       if (made == vehicle.plans.end() || !made->second.is_whole)

@@ -16,6 +16,7 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -101,17 +102,22 @@ ride_after ride_of(const watched_run& run, const change_home& change) {
   return of;
 }
 
+std::string ms_of(const std::optional<duration>& x) {
+  return x ? fmt::format("{:.3f}", 1e3 * to_seconds(*x)) : "none";
+}
+
 void print(const watched_run& run) {
   for (const auto& x : changes_home(run)) {
     const auto ride = ride_of(run, x);
     std::cout << fmt::format(
-        "change station={} t={:.3f} reason={} first_ms={} tracks_m={:.4f} "
-        "scene_m={:.4f} plan_m={:.4f} hard={} off_plan_m={:.4f} "
+        "change station={} t={:.3f} reason={} first_ms={} left_ms={} "
+        "tracks_m={:.4f} scene_m={:.4f} plan_m={:.4f} hard={} "
+        "off_plan_m={:.4f} "
         "jump_m={:.4f}\n",
         x.station, to_seconds(x.at.time_since_epoch()), x.reason,
-        x.first ? fmt::format("{:.3f}", 1e3 * to_seconds(*x.first)) : "none",
-        x.plan.tracks_apart_m, x.plan.scene_apart_m, x.plan.plan_apart_m,
-        ride.hard_brakes, ride.off_plan_m, ride.jump_m);
+        ms_of(x.first), ms_of(x.left), x.plan.tracks_apart_m,
+        x.plan.scene_apart_m, x.plan.plan_apart_m, ride.hard_brakes,
+        ride.off_plan_m, ride.jump_m);
   }
   double without_plan_s = 0;
   std::uint64_t along = 0, on_board = 0;

@@ -7,6 +7,7 @@
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
 
+#include <optional>
 #include <utility>
 
 namespace sofof::actors {
@@ -29,16 +30,20 @@ struct chain_stage_state {
   messages::requester_manager_actor service; // whose client it is
   messages::input_actor next;
   messages::payload newest; // input
-  bool at_once = false;     // what the next result becomes begins a cycle
+  // The first result of this input, or of a later one, begins a cycle.
+  std::optional<time_point> at_once_from;
 
   // What its function had ready is the first of its results now.
   void on_source(const messages::source_change& change) {
-    at_once = at_once || (setup.is_warm && !change.remote);
+    if (setup.is_warm && !change.remote && !at_once_from)
+      at_once_from = time_point::min();
   }
 
+  // A result of what came before it, which may be under way, is none of it.
   void on_input(const messages::service_input& input) {
     newest = input.what;
-    at_once = at_once || input.at_once;
+    if (input.at_once)
+      at_once_from = input.at;
     if (service)
       self->send(service, input);
   }
@@ -55,7 +60,9 @@ struct chain_stage_state {
                                        result.session.provider, t,
                                        result.timing});
     messages::service_input input{{}, t, std::move(what)};
-    input.at_once = std::exchange(at_once, false);
+    input.at_once = at_once_from && result.timing.input_at >= *at_once_from;
+    if (input.at_once)
+      at_once_from.reset();
     self->send(next, std::move(input));
   }
 };
