@@ -33,6 +33,8 @@ void requester::learn_times(service_state& service,
   there.up.add(up.wait + up.travel);
   there.computing.add(queue + computing);
   there.down.add(down.wait + down.travel);
+  if (there.down.count() == least_results)
+    predict_response(now);
 }
 
 // Where few results came, the way is that of offers, and the computing as these
@@ -85,6 +87,9 @@ void requester::predict_response(time_point now) {
     assert(service);
     found.split.push_back(service->current());
     times.push_back(times_of(*service));
+    const auto& place = found.split.back();
+    if (place && times.back().at[*place].down.count() < least_results)
+      return; // no 99 % of so few
   }
   assert(times.size() == chain_.size());
   const auto law = policies::predicted_response(times, found.split);

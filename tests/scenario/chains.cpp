@@ -10,6 +10,8 @@
 #include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <map>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -116,6 +118,24 @@ TEST_CASE("in every split of the chain over one provider what is offered is "
       CHECK((used > 1500) == ((which >> k & 1U) != 0));
     }
   }
+}
+
+TEST_CASE("each vehicle predicts the responses of a split by no fewer than 20 "
+          "results, and all six do") {
+  const service_name remote{"environment_model"};
+  const auto run = played(offering(2));
+  std::map<station_id, time_point> twentieth;
+  std::map<station_id, int> results;
+  for (const auto& x : run.cycles)
+    if (x.session.service == remote && ++results[x.session.station] == 20)
+      twentieth[x.session.station] = x.received;
+  std::set<station_id> predicting;
+  for (const auto& x : run.predictions)
+    if (x.split.at(1)) {
+      CHECK(x.at >= twentieth.at(x.station));
+      predicting.insert(x.station);
+    }
+  CHECK(predicting.size() == 6);
 }
 
 TEST_CASE("a chain with a gap is refused, and one whose planner waits") {

@@ -56,7 +56,7 @@ time_law predicted_response(std::span<const service_times> chain,
       arrived = begins;
     sum = after(after(wait(begins), computing), down);
   }
-  return after(sum, time_law::uniform(protocol::control_period));
+  return until_multiple_of(protocol::control_period, sum);
 }
 
 } // namespace sofof::policies

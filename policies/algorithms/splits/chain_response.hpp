@@ -38,7 +38,7 @@ using chain_split = std::vector<service_place>;
 /// * what runs at a provider takes the way up, the computing and the way down;
 /// * a service with a period that runs where those before it run asks them
 ///   there, as soon as they have got their input;
-/// * the control value is that of the next control step.
+/// * the control value is that of the next control step; looks come with one.
 /// @param split  As long as the chain.
 /// @returns its law if all of these are independent; unknown if one of them is.
 time_law predicted_response(std::span<const service_times> chain,

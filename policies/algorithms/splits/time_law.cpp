@@ -103,4 +103,25 @@ time_law after(const time_law& x, const time_law& y) {
   return sum;
 }
 
+// Of the times that count as a multiple, half are a little longer.
+time_law until_multiple_of(duration period, const time_law& x) {
+  assert(period > duration{0} && period % time_law::step == duration{0});
+  const auto every = static_cast<std::size_t>(period / time_law::step);
+  time_law sum;
+  sum.count_ = x.count_;
+  const auto add = [&sum](std::size_t k, double weight) {
+    k = std::min(k, time_law::most_steps);
+    if (sum.weights_.size() <= k)
+      sum.weights_.resize(k + 1);
+    sum.weights_[k] += weight;
+  };
+  for (std::size_t k = 0; k < x.weights_.size(); ++k) {
+    const auto next = (k / every + 1) * every;
+    const auto beyond = k % every == 0 ? x.weights_[k] / 2 : x.weights_[k];
+    add(next, beyond);
+    add(next - every, x.weights_[k] - beyond);
+  }
+  return sum;
+}
+
 } // namespace sofof::policies

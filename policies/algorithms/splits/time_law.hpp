@@ -43,9 +43,16 @@ public:
   /// unknown if one of them is.
   friend time_law after(const time_law& x, const time_law& y);
 
+  /// The law of what ends with the next of moments that are `period` apart, if
+  /// it begins with one of them.
+  /// @param period  A multiple of `step`, > 0.
+  friend time_law until_multiple_of(duration period, const time_law& x);
+
 private:
   std::vector<double> weights_; // of [k − 1/2, k + 1/2) steps
   double count_ = 0;            // of them together
 };
+
+time_law until_multiple_of(duration period, const time_law& x);
 
 } // namespace sofof::policies
