@@ -20,7 +20,7 @@ struct split_responses {
                                       ///< one that the next asked, nothing.
   statistics control_s;               ///< ... from the plan on.
   std::uint64_t skipped = 0;          ///< Looks that a later one stood in for.
-  statistics predicted_p99_ms; ///< Whenever a vehicle predicted it.
+  statistics predicted_p99_ms;        ///< Whenever a vehicle predicted it.
 
   void add(const messages::response_record& x);
   void add(const messages::prediction_record& x) {
