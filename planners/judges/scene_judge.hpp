@@ -123,6 +123,8 @@ private:
                                driving_scene& told) const;
   bool leads_before(const own_knowledge& x, double at_m, double speed_mps,
                     const driving_scene& told) const;
+  bool leads_from(const own_knowledge& x, const crossing_user& own,
+                  const driving_scene& told) const;
   double gone_s(const own_knowledge& x, double at_m, double to_m) const;
   bool crosses_as(const own_knowledge& x, const way_stretch& place,
                   double off_m, const driving_scene& told) const;

@@ -246,6 +246,29 @@ bool scene_judge::crosses_like(const crossing_user& own,
              || told.leave_s >= own.leave_s - limits.crossing_s);
 }
 
+/// @returns whether who is known to be across a place already is told as the
+/// lead that it becomes along the way.
+bool scene_judge::leads_from(const own_knowledge& x, const crossing_user& own,
+                             const driving_scene& told) const {
+  assert(own.from_m <= own.to_m);
+  if (own.enter_s > limits.here_s || !told.lead)
+    return false;
+  const auto rear_m = told.lead->rear_s_m;
+  assert(std::isfinite(rear_m));
+  return rear_m >= own.from_m && rear_m <= own.to_m
+         && std::ranges::any_of(x.tracks, [&](const track& t) {
+              const auto foot =
+                  measure_body(x.way, predict(t, x.scene.at),
+                               {rear_m, limits.looked_for_m,
+                                limits.corridor_m + uncertain_m_});
+              return foot
+                     && std::abs(foot->from_m - rear_m)
+                            <= limits.along_m
+                                   + limits.for_speed_s * foot->speed_mps
+                     && leads_before(x, own.to_m, foot->speed_mps, told);
+            });
+}
+
 /// @returns whether a planner minds somebody of a known place in any case.
 bool scene_judge::matters(const own_knowledge& x,
                           const crossing_user& own) const {
@@ -315,10 +338,11 @@ std::string_view scene_judge::hold_to_crossings(const own_knowledge& x,
       continue;
     }
     told.crossings.push_back(own);
-    check = "crossing";
+    if (!leads_from(x, own, told))
+      check = "crossing";
   }
   assert(told.crossings.size() >= count);
-  assert(check.empty() == (told.crossings.size() == count));
+  assert(check.empty() || told.crossings.size() > count);
   if (any && is_crowded(told.crossings)) {
     sort_crossings(told);
     leave_out_far(x, told);

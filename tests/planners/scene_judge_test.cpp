@@ -3,7 +3,7 @@
 #include "planners/judges/scene_judge.hpp"
 
 #include "planners/trajectory/maneuver_candidates.hpp"
-#include "tests/planners/onlooker.hpp"
+#include "tests/planners/told_drive_of_scenes.hpp"
 
 #include <doctest/doctest.h>
 
@@ -23,73 +23,6 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr auto forever = std::numeric_limits<double>::infinity();
-
-route_ptr judged_street() {
-  const road_map map{
-      "street", {}, {toy::straight("street", {0, 0}, {2000, 0})}};
-  return map.make_route("street", std::vector<std::string>{"street"}, false);
-}
-
-/// A vehicle at 200 m of a straight street, which is told its scene every
-/// 100 ms.
-struct told_drive_of_scenes {
-  route_ptr way = judged_street();
-  time_point now{look_time};
-  double speed_mps = 8;
-  driving_scene own;  ///< Of what it knows.
-  driving_scene told; ///< As it is used in the end.
-  std::vector<track> tracks;
-  std::vector<perceived_object> seen;
-  line_of_sight houses;
-  scene_judge judge;
-
-  static constexpr double at_m = 200;
-  double front_m() const { return at_m + car_params.front_m; }
-
-  static lead_vehicle lead(double rear_m, double speed_mps = 0) {
-    lead_vehicle x;
-    x.rear_s_m = rear_m;
-    x.speed_mps = speed_mps;
-    return x;
-  }
-
-  scene_verdict step(driving_scene what) {
-    own.at = what.at = now;
-    told = std::move(what);
-    const auto verdict = judge.judge({.now = now,
-                                      .way = *way,
-                                      .s_m = at_m,
-                                      .speed_mps = speed_mps,
-                                      .scene = own,
-                                      .tracks = tracks,
-                                      .look = {now,
-                                               {{at_m + 1.5, 0}, 0, 100, 360},
-                                               speed_mps,
-                                               now,
-                                               seen,
-                                               {},
-                                               seen.size()}},
-                                     houses, told);
-    now += 100ms;
-    return verdict;
-  }
-
-  std::optional<std::pair<std::string, double>>
-  go_on(double for_s, const driving_scene& what) {
-    const auto begin = now;
-    while (to_seconds(now - begin) < for_s)
-      if (const auto x = step(what).refused)
-        return std::pair{std::string{x->check}, to_seconds(now - begin)};
-    return std::nullopt;
-  }
-
-  /// A body that the vehicle knows, with what it makes of it.
-  void know(const track& x) {
-    tracks.push_back(x);
-    seen.push_back(
-        {x.centre(), x.heading_rad, x.speed_mps(), 0, x.length_m, x.width_m});
-  }
-};
 
 } // namespace
 
@@ -327,6 +260,31 @@ TEST_CASE("a body is beside the way until the own rear is past it") {
   x.own.beside = {{197, 202, -1.6, 0.4, 0, 0, 3.5}};
   CHECK_FALSE(x.step({}).refused);
   CHECK(x.told.beside.size() == 1);
+}
+
+TEST_CASE("who is known to leave a crossing ahead along the way may be told to "
+          "lead there, no faster than it is, and is minded all the same") {
+  told_drive_of_scenes x;
+  x.know(seen_track({240, 1.0}, 0, 6));
+  x.tracks[0].at = x.now + 1h; // it is there at each look
+  x.own.crossings = {{232, 244, 0, 0.6, true, forever, 34}};
+  driving_scene as_lead;
+  as_lead.lead = x.lead(237.6, 6);
+  CHECK_FALSE(x.go_on(5, as_lead));
+  CHECK(x.told.crossings.size() == 1);
+  SUBCASE("faster") {
+    as_lead.lead->speed_mps = 12;
+  }
+  SUBCASE("elsewhere") {
+    as_lead.lead = x.lead(250, 6);
+  }
+  SUBCASE("while it comes only") {
+    x.own.crossings[0].enter_s = 2;
+    x.own.crossings[0].leave_s = 3;
+  }
+  const auto end = x.go_on(3, as_lead);
+  REQUIRE(end);
+  CHECK(end->first == "crossing");
 }
 
 TEST_CASE("who crosses first is not told to brake for the own car") {
