@@ -49,29 +49,35 @@ void chain_rules::add(const messages::trace_record& x, trace_place at) {
   }
 }
 
-// A violation of one service and a release of another one, in either order.
 void chain_rules::on_closed(const messages::trace_record& x, trace_place at) {
   auto& ends = ends_[{at.trace, x.station}];
-  if (ends.when != x.at)
+  if (ends.when != x.at) {
+    compare(x.station, ends);
     ends = {.violated = {}, .released = {}, .when = x.at};
+  }
   const closing one{x.services.front(), {x.at, at}};
-  const auto tell = [&](const closing& violated, const closing& released) {
-    if (violated.what.name != released.what.name)
+  if (is_violated(x))
+    ends.violated.push_back(one);
+  if (is_for(x, end_reason::released))
+    ends.released.push_back(one);
+}
+
+// A violation of one service and a release of another one, in either order. A
+// service whose own session ends by a violation lets go of who stands by for
+// it.
+void chain_rules::compare(station_id station, const end_of_sessions& ends) {
+  const auto is_of = [](const closing& one) {
+    return [&one](const closing& x) { return x.what.name == one.what.name; };
+  };
+  for (const auto& released : ends.released) {
+    if (std::ranges::any_of(ends.violated, is_of(released)))
+      continue;
+    for (const auto& violated : ends.violated)
       found_({rule_of("C4"),
               fmt::format("{} of station {}, as {} ended",
-                          released.what.name.view(), x.station,
+                          released.what.name.view(), station,
                           violated.what.name.view()),
               released.step.at});
-  };
-  if (is_violated(x)) {
-    ends.violated.push_back(one);
-    for (const auto& other : ends.released)
-      tell(one, other);
-  }
-  if (is_for(x, end_reason::released)) {
-    ends.released.push_back(one);
-    for (const auto& other : ends.violated)
-      tell(other, one);
   }
 }
 
@@ -99,6 +105,8 @@ void chain_rules::compare(const vehicle& of, const service& name,
 }
 
 void chain_rules::finish() {
+  for (const auto& [of, ends] : ends_)
+    compare(of.station, ends);
   for (const auto& [who, next] : stages_) {
     const auto& [of, name] = who;
     const auto before = chain_.find(name);

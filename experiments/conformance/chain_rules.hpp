@@ -65,6 +65,7 @@ private:
 
   bool is_part_of_chain(const service& name) const;
   void on_closed(const messages::trace_record& x, trace_place at);
+  void compare(station_id station, const end_of_sessions& ends);
   void compare(const vehicle& of, const service& name, const stage& before,
                const stage& next);
 

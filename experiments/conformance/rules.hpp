@@ -104,8 +104,10 @@ inline constexpr rule all_rules[]{
            "follows it, in the same instant"},
     {"C3", "No result of a service that follows another one is used before "
            "its first input"},
-    {"C4", "A session that ends by a violation has none of another service of "
-           "the chain released in the same instant"},
+    {"C4",
+     "A session that ends by a violation has none of another service of "
+     "the chain released in the same instant, unless that one is violated, "
+     "too"},
 };
 
 /// @param id  Of a rule that there is, or this does not compile.

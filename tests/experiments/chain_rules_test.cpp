@@ -134,6 +134,21 @@ TEST_CASE("a fallback of one service leaves the others where they are") {
   CHECK(ends("peer_lost", "peer_lost", 0ms).empty());
 }
 
+TEST_CASE_FIXTURE(chained,
+                  "who stands by for a service is let go when that one "
+                  "is late, though another is late at that moment") {
+  add(trace_part::requester, closed, {"look", 6}, "released");
+  add(trace_part::requester, closed, {"look", 7}, "qos_gap");
+  add(trace_part::requester, closed, {"plan", 8}, "released");
+  SUBCASE("it is") {
+    add(trace_part::requester, closed, {"plan", 9}, "qos_gap");
+    CHECK(broken().empty());
+  }
+  SUBCASE("it is not") {
+    CHECK(broken() == rules{"C4"});
+  }
+}
+
 TEST_CASE_FIXTURE(running_vehicle, "a session that closes as another service "
                                    "of its vehicle is late is found") {
   vehicle(first_data);
