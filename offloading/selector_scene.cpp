@@ -16,7 +16,7 @@ void source_selector::look_at_scene(time_point now) {
     return;
   assert(found->longest >= duration{0});
   if (options().latency_by_scene)
-    limit_by_scene(found->longest - found->age, now);
+    limit_by_scene(found->longest - greatest_age(*found, now), now);
   assert(!found->because.empty());
   port_.report_safe_response(found->longest);
   messages::scene_record seen{.at = now,
@@ -27,6 +27,21 @@ void source_selector::look_at_scene(time_point now) {
   if (!newest_.in_use.empty())
     seen.response = now - used_input_at_;
   port_.record(std::move(seen));
+}
+
+/// @returns the greatest age of the scenes of which results may still come:
+/// what is made of an older input is later than the scene allows.
+duration source_selector::greatest_age(const safe_response& found,
+                                       time_point now) {
+  assert(found.age >= duration{0});
+  ages_.emplace_back(now, found.age);
+  while (now - ages_.front().first > found.longest && ages_.size() > 1)
+    ages_.pop_front();
+  auto greatest = found.age;
+  for (const auto& [at, age] : ages_)
+    greatest = std::max(greatest, age);
+  assert(greatest >= found.age);
+  return greatest;
 }
 
 // Those that wait for their first result wait on: the scene may allow it then.

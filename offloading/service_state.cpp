@@ -129,8 +129,9 @@ std::optional<duration> service_state::safe_response(time_point now) const {
   if (service.follows.view().empty()) // what it detects has to be there
     return now - scene->at > 2 * options.input_period ? duration{0}
                                                       : scene->safe_response;
-  // What was told counts while it is new; its silence is the watchdog's.
-  const auto is_new = now - scene->at <= 2 * options.period;
+  // What was told counts until its silence is the watchdog's.
+  const auto is_new = now - scene->at <= std::max(
+                          2 * options.period, options.limits.max_interarrival);
   return is_new ? std::optional{scene->safe_response} : std::nullopt;
 }
 

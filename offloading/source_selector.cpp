@@ -103,6 +103,7 @@ void source_selector::on_input(const messages::service_input& input,
   }
   newest_.at = input.at;
   newest_.what = input.what;
+  newest_.sensed = input.sensed;
   if (setup_.asks_scene || options().latency_by_scene)
     look_at_scene(now);
   if (!run_along(now))

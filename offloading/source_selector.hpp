@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <span>
@@ -161,6 +162,7 @@ private:
   bool is_standby(const source& x) const;
 
   void look_at_scene(time_point now);
+  duration greatest_age(const safe_response& found, time_point now);
   void limit_by_scene(duration safe, time_point now);
   bool input_due(const source& x, time_point now) const;
   bool feed(source& x, time_point now);
@@ -205,6 +207,8 @@ private:
   tracer trace_;
   /// What is asked of results now; nullopt: the scene allows for none.
   std::optional<messages::qos_limits> limits_;
+  /// Of the scenes that inputs were made of, and when they were looked at.
+  std::deque<std::pair<time_point, duration>> ages_;
   std::vector<source> sources_; // the oldest first
   first_response answers_;      // of cycles, by any of them
   std::optional<messages::standby> standby_;

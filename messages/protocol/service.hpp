@@ -222,6 +222,9 @@ struct service_input {
   /// A cycle begins with it besides those of the grid. Does not travel: it is
   /// for the vehicle's own function.
   bool at_once = false;
+  /// In a chain, when a sensor saw what it is made of; nullopt: at `at`. Does
+  /// not travel.
+  std::optional<time_point> sensed{};
 };
 
 void visit_fields(auto& v, service_input& x) {

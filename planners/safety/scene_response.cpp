@@ -19,8 +19,11 @@ own_width width_of(const scene_viewer& me, const world::vehicle_params& car) {
   const auto sine = std::sin(me.turned_rad);
   const auto half_m = car.width_m / 2 * std::abs(std::cos(me.turned_rad));
   const auto front_m = car.front_m * sine, rear_m = -car.rear_m * sine;
-  return {me.d_m + std::min(front_m, rear_m) - half_m,
-          me.d_m + std::max(front_m, rear_m) + half_m};
+  // In a bend its straight body leaves the lane's middle to the outside.
+  const auto bend = me.curvature_1pm;
+  const auto out_m = car.front_m * car.front_m * std::abs(bend) / 2;
+  return {me.d_m + std::min(front_m, rear_m) - half_m - (bend > 0 ? out_m : 0),
+          me.d_m + std::max(front_m, rear_m) + half_m + (bend < 0 ? out_m : 0)};
 }
 
 safe_response beside(const lane_obstacle& o, const scene_viewer& me,
@@ -65,10 +68,9 @@ safe_response longest_safe_response(const driving_scene& told,
     if (o.to_m > me.s_m - car.rear_m)
       take(beside(o, me, own, front_m, assumed));
   for (const auto& c : told.crossings) {
-    const auto cannot_stop =
-        !me.has_priority && c.brakes_mps2 > assumed.lon.brake_min_mps2;
-    if (c.goes_first && c.leave_s > 0 && c.from_m > front_m
-        && (c.enter_s <= 0 || cannot_stop))
+    const auto comes_first = c.goes_first && !me.has_priority
+                             && c.brakes_mps2 > assumed.lon.brake_min_mps2;
+    if (c.leave_s > 0 && c.from_m > front_m && (c.enter_s <= 0 || comes_first))
       take({longest_response_s(me.speed_mps, c.from_m - front_m, assumed.lon),
             "crossing"});
   }

@@ -40,7 +40,7 @@ inline constexpr std::size_t arity<messages::verdict> = 4;
 template <>
 inline constexpr std::size_t arity<messages::service_response> = 4;
 template <>
-inline constexpr std::size_t arity<messages::service_input> = 7;
+inline constexpr std::size_t arity<messages::service_input> = 8;
 template <>
 inline constexpr std::size_t arity<messages::transit> = 2;
 template <>
@@ -190,10 +190,12 @@ public:
   } // the rest does not travel
   void fill(messages::service_input& x) {
     const auto keep = x.up;         // does not travel, ...
-    const auto at_once = x.at_once; // nor does this
+    const auto at_once = x.at_once; // nor does this, ...
+    const auto sensed = x.sensed;   // or this
     std::apply([this](auto&... xs) { (fill(xs), ...); }, members(x));
     x.up = keep;
     x.at_once = at_once;
+    x.sensed = sensed;
   }
   void fill(messages::result_timing& x) {
     const auto keep = x.down; // does not travel

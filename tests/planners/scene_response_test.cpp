@@ -16,7 +16,7 @@ constexpr auto forever = std::numeric_limits<double>::infinity();
 /// The vehicle's rear axle is 100 m along its way.
 struct told_street {
   driving_scene scene;
-  scene_viewer me{100, 0, 0, 10, false};
+  scene_viewer me{100, 0, 0, 10, 0, false};
   rss_assumptions assumed;
   world::vehicle_params car;
 
@@ -56,6 +56,16 @@ TEST_CASE_FIXTURE(told_street, "a body beside the way matters if it is near "
   CHECK(look().longest_s == most_s);
 }
 
+TEST_CASE_FIXTURE(told_street, "in a bend the own body swings out towards who "
+                               "is outside") {
+  scene.beside = {{front_m() + 6, front_m() + 11, 2.5, 4.5, -8}};
+  const auto straight_s = look().longest_s;
+  me.curvature_1pm = -0.08; // to the right
+  CHECK(look().longest_s < straight_s);
+  me.curvature_1pm = 0.08;
+  CHECK(look().longest_s == straight_s);
+}
+
 TEST_CASE_FIXTURE(told_street, "who comes first to a crossing and cannot stop "
                                "any more makes it a place to stop at") {
   const auto from_m = front_m() + 20;
@@ -79,6 +89,8 @@ TEST_CASE_FIXTURE(told_street, "who comes first to a crossing and cannot stop "
     me.has_priority = true;
     scene.crossings[0].enter_s = 0;
     scene.crossings[0].leave_s = forever;
+    CHECK(look().longest_s == stop_s);
+    scene.crossings[0].goes_first = false;
     CHECK(look().longest_s == stop_s);
   }
 }

@@ -6,8 +6,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
+#include <map>
 #include <string>
+#include <utility>
 
 using namespace sofof;
 using namespace sofof::messages;
@@ -47,8 +50,14 @@ max_input_age = "2s"
 constexpr auto chain_before = R"(
 [[service]]
 name = "tracking"
+max_latency = "300ms"
 [[service]]
 name = "environment_model"
+max_latency = "300ms"
+)";
+
+constexpr auto offers_all = R"(
+services = ["tracking", "environment_model", "trajectory_planning"]
 )";
 
 constexpr auto gap = 100ms, run_time = 45ms, least = 250ms, cap = 600ms;
@@ -88,20 +97,45 @@ TEST_CASE("where the scene limits results, none is used that is older than the "
       CHECK(x.reason == end_reason::released);
 }
 
-TEST_CASE(
-    "where the scene limits results in a chain, none is used that is older "
-    "than the cap") {
+TEST_CASE("where the scene limits results in a chain, none is used that is "
+          "older than the cap, or made of a look longer ago than the scene "
+          "allows") {
   auto text = std::string{scene_limited};
   text.insert(text.find("[[service]]"), chain_before);
+  text.insert(text.find("[network]"), offers_all);
+  text.replace(text.find("250ms"), 5, "100ms"); // as scenes are older here
+  text.replace(text.find("14.0"), 4, "18.0");
   const auto run = play(scenario::parse_scenario(
       text, std::filesystem::path{SOFOF_SOURCE_DIR} / "config/scene.toml", {}));
   CHECK(run.collisions.empty());
-  std::size_t used = 0;
-  for (const auto& x : run.cycles)
-    if (x.used && x.session.is_remote()
-        && x.session.service == service_name{"trajectory_planning"}) {
-      ++used;
-      CHECK(x.received - x.created <= cap);
-    }
-  CHECK(used > 100);
+  // When that was sensed of which an input of planning was made.
+  std::map<std::pair<station_id, time_point>, time_point> sensed;
+  for (const auto& x : run.stages) { // in order
+    const auto before = sensed.find({x.station, x.timing.input_at});
+    sensed[{x.station, x.got}] =
+        before != sensed.end() ? before->second : x.timing.input_at;
+  }
+  const service_name planning{"trajectory_planning"};
+  std::map<service_name, std::size_t> used;
+  std::size_t narrowed = 0;
+  for (const auto& x : run.cycles) {
+    if (!x.used || !x.session.is_remote())
+      continue;
+    ++used[x.session.service];
+    if (x.session.service != planning || used[planning] % 7 != 0)
+      continue;
+    auto left = duration::max();
+    for (const auto& scene : run.scenes) // in order
+      if (scene.station == x.session.station && scene.at <= x.received
+          && scene.service == planning)
+        left = scene.safe - gap - run_time;
+    narrowed += left < cap;
+    CHECK(x.received - x.created <= cap);
+    const auto of = sensed.find({x.session.station, x.timing.input_at});
+    REQUIRE(of != sensed.end());
+    CHECK(x.received - of->second <= left);
+  }
+  CHECK(used.size() == 3);
+  CHECK(used[planning] > 100);
+  CHECK(narrowed > 0);
 }

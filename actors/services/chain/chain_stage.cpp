@@ -7,12 +7,18 @@
 #include <caf/stateful_actor.hpp>
 #include <caf/typed_event_based_actor.hpp>
 
+#include <algorithm>
+#include <cstddef>
+#include <deque>
 #include <optional>
 #include <utility>
 
 namespace sofof::actors {
 
 namespace {
+
+// More than are on their way at once.
+constexpr std::size_t most_inputs = 32;
 
 struct stage_setup {
   messages::recorder_actor recorder;
@@ -30,6 +36,8 @@ struct chain_stage_state {
   messages::requester_manager_actor service; // whose client it is
   messages::input_actor next;
   messages::payload newest; // input
+  // When the latest inputs were made, and sensed.
+  std::deque<std::pair<time_point, time_point>> inputs;
   // The first result of this input, or of a later one, begins a cycle.
   std::optional<time_point> at_once_from;
 
@@ -39,13 +47,26 @@ struct chain_stage_state {
       at_once_from = time_point::min();
   }
 
-  // A result of what came before it, which may be under way, is none of it.
+  // Results of older inputs do not use up the early cycle.
   void on_input(const messages::service_input& input) {
     newest = input.what;
+    inputs.emplace_back(input.at, input.sensed.value_or(input.at));
+    if (inputs.size() > most_inputs)
+      inputs.pop_front();
     if (input.at_once)
       at_once_from = input.at;
     if (service)
       self->send(service, input);
+  }
+
+  // @returns when that was sensed of which a result was made; of one older than
+  // all that is known, the oldest.
+  time_point sensed(const messages::service_result& result) const {
+    auto found = inputs.front();
+    for (const auto& x : inputs)
+      if (x.first <= result.timing.input_at)
+        found = x;
+    return std::min(found.second, result.timing.input_at);
   }
 
   void on_result(const messages::service_result& result) {
@@ -63,6 +84,7 @@ struct chain_stage_state {
     input.at_once = at_once_from && result.timing.input_at >= *at_once_from;
     if (input.at_once)
       at_once_from.reset();
+    input.sensed = sensed(result);
     self->send(next, std::move(input));
   }
 };

@@ -66,14 +66,16 @@ look_at_all(const messages::service_input& latest,
   const auto request = latest.what.as<plan_request>();
   if (!seen || !request->found.scene)
     return seen;
+  const auto way = world.streets->find(request->way);
   const auto& own = request->from;
-  const auto& scene = request->found.scene->scene;
+  // Who takes part in what was agreed, and has yet to come, is none of these.
   const auto told = planners::longest_safe_response(
-      scene,
+      request->found.scene->scene,
       {own.s_m, own.d_m, own.heading_error_rad, own.speed_mps,
-       has_priority(*request, world)},
+       way->path().curvature_1pm(own.s_m), world.crossings_granted},
       world.rss, world.car, most_s);
-  const auto age = std::max(latest.at - scene.at, duration{0});
+  const auto age =
+      std::max(latest.at - latest.sensed.value_or(latest.at), duration{0});
   const auto longest = from_seconds(told.longest_s);
   return longest < seen->longest
              ? offloading::safe_response{longest, told.because, age}
