@@ -134,7 +134,7 @@ void service_cycle::begin(time_point now) {
 void service_cycle::stop_timer() {
   ++timer_;
   has_timer_ = false;
-  is_due_ = false;
+  is_due_ = is_due_besides_ = false;
 }
 
 void service_cycle::await_next(time_point now) {
@@ -147,6 +147,7 @@ void service_cycle::run(time_point now, bool is_besides) {
   const auto is_called = is_besides || waits_for_input();
   if (under_way_) {
     is_due_ = true;
+    is_due_besides_ = is_due_besides_ || is_besides;
     return;
   }
   const auto on_grid = grid_number(now);
@@ -229,8 +230,9 @@ void service_cycle::look_after(time_point now) {
   under_way_.reset();
   if (result)
     port_.deliver_at(now, std::move(*result));
+  const auto is_besides = std::exchange(is_due_besides_, false);
   if (std::exchange(is_due_, false))
-    run(now);
+    run(now, is_besides);
   assert(is_consistent());
 }
 

@@ -124,6 +124,7 @@ private:
   std::optional<coming_result> under_way_; // if there is a `review`
   time_point begun_;                       // when that was
   bool is_due_ = false;                    // the next cycle, once that is done
+  bool is_due_besides_ = false;            // besides the grid
 };
 
 } // namespace sofof::offloading

@@ -360,6 +360,20 @@ TEST_CASE_FIXTURE(interrupted_world,
 }
 
 TEST_CASE_FIXTURE(interrupted_world,
+                  "an input that says so while a cycle is under way begins one "
+                  "besides the grid when that is done") {
+  done += 7ms;
+  run_for(3ms);
+  shared.on_input(
+      {.session = {}, .at = now, .what = payload::of(echo{2}), .at_once = true},
+      now);
+  run_for(15ms);
+  CHECK(starts() == std::vector<duration>{0ms, 12ms});
+  REQUIRE(results.size() == 2);
+  CHECK(results[0].second.cycle < results[1].second.cycle);
+}
+
+TEST_CASE_FIXTURE(interrupted_world,
                   "who comes home while its last cycle is under way begins "
                   "when that is done, who leaves meanwhile does not") {
   done += 25ms;
