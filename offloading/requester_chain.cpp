@@ -89,7 +89,7 @@ void requester::predict_response(time_point now) {
     times.push_back(times_of(*service));
     const auto& place = found.split.back();
     if (place && times.back().at[*place].down.count() < least_results)
-      return; // no 99 % of so few
+      return; // too few results, or offers, for a 99 %
   }
   assert(times.size() == chain_.size());
   const auto law = policies::predicted_response(times, found.split);

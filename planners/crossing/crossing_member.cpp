@@ -17,7 +17,7 @@ constexpr double claims_before_line_m = 1;
 /// Who has left the crossing in time but for this has kept its claim.
 constexpr double left_within_m = 5;
 
-/// Whose plan leaves the crossing so much later or sooner does not keep it.
+/// A drive that leaves the crossing so much later or sooner is not kept.
 constexpr double leaves_late_s = 0.7;
 
 /// How a car sets off, ...
@@ -116,8 +116,8 @@ bool crossing_member::is_behind(time_point now,
   return behind_m > most_behind_m(own_.speed_mps);
 }
 
-/// @returns whether it is on the crossing, and so far before a drive that this
-/// is not where it is.
+/// @returns whether the car is on the crossing, and farther than its drive says
+/// by so much that others would not find it where the drive is.
 bool crossing_member::is_before(time_point now,
                                 const world::trajectory& drive) const {
   assert(!drive.empty() && own_.speed_mps >= 0);

@@ -190,7 +190,7 @@ std::string_view scene_judge::wait(const own_knowledge& x,
                 return c.goes_first && c.from_m < until_m;
               });
   };
-  // Whether room is lacking beside a body, two find different by centimetres.
+  // The room beside a body is known to centimetres only.
   const auto is_tight = [&](const lane_obstacle& o) {
     return o.lacks_m > 0 && o.from_m < until_m;
   };

@@ -246,8 +246,8 @@ bool scene_judge::crosses_like(const crossing_user& own,
              || told.leave_s >= own.leave_s - limits.crossing_s);
 }
 
-/// @returns whether who is known to be across a place already is told as the
-/// lead that it becomes along the way.
+/// @returns whether a body that is known to be across a place already is told
+/// as the lead: it leaves the place along the way.
 bool scene_judge::leads_from(const own_knowledge& x, const crossing_user& own,
                              const driving_scene& told) const {
   assert(own.from_m <= own.to_m);

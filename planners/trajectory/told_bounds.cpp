@@ -23,7 +23,7 @@ constexpr double told_apart_m = 1.0;
 
 /// Where a car waits it may stop with its axle so much farther on.
 constexpr double rests_within_m = 0.6;
-/// How who is farther already stops.
+/// Deceleration of a car that cannot stop before its waiting place any more.
 constexpr double rests_mps2 = 1;
 
 } // namespace

@@ -26,13 +26,16 @@
 
 namespace sofof::test {
 
+inline constexpr double not_the_same = 1e9; // m
+
 /// What the vehicle's own planner made, and what one that never left would
 /// have made of the same looks.
 struct home_plan {
-  bool is_whole = false;     ///< Of its own scene, and that of its own tracks.
-  double tracks_apart_m = 0; ///< The farthest; infinite: not the same ones.
-  double scene_apart_m = 0;  ///< Likewise of where others are on the way.
-  double plan_apart_m = 0;   ///< Likewise in the first two seconds.
+  bool is_whole = false; ///< Of its own scene, and that of its own tracks.
+  /// The farthest; as here: not the same ones, or not known.
+  double tracks_apart_m = not_the_same;
+  double scene_apart_m = not_the_same; ///< Likewise of others on the way.
+  double plan_apart_m = not_the_same;  ///< Likewise in the first two seconds.
 };
 
 /// A plan that a vehicle went by.
@@ -64,8 +67,6 @@ struct watched_run {
 };
 
 // -- how far apart ------------------------------------------------------------
-
-inline constexpr double not_the_same = 1e9; // m
 
 inline double apart_m(const std::vector<planners::track>& a,
                       const std::vector<planners::track>& b) {

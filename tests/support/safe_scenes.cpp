@@ -374,7 +374,7 @@ private:
 
   void tell(std::size_t k, std::string_view what, scene_findings& out) const {
     const auto& me = me_[k];
-    // Who braked late counts for more than who only left home.
+    // A brake that was late counts for more than a service away from home.
     if (out.first.empty() || (what == "late" && !out.first.starts_with(what)))
       out.first = fmt::format(
           "{}: vehicle {} at {:.2f} s, less since {:.2f} s, {}, {:.1f} m/s, "
