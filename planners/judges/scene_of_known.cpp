@@ -315,9 +315,11 @@ void scene_judge::leave_out_far(const own_knowledge& x,
 
 std::string_view scene_judge::hold_to_crossings(const own_knowledge& x,
                                                 driving_scene& told) const {
+  assert(std::isfinite(x.s_m) && x.speed_mps >= 0);
   std::string_view check;
   auto any = false;
   const auto count = told.crossings.size();
+  assert(std::isfinite(matters_to_m(x)));
   for (const auto& own : x.scene.crossings) {
     if (!matters(x, own))
       continue;

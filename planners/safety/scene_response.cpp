@@ -16,6 +16,7 @@ struct own_width {
 
 own_width width_of(const scene_viewer& me, const world::vehicle_params& car) {
   assert(std::isfinite(me.d_m) && std::isfinite(me.turned_rad));
+  assert(std::isfinite(me.curvature_1pm));
   const auto sine = std::sin(me.turned_rad);
   const auto half_m = car.width_m / 2 * std::abs(std::cos(me.turned_rad));
   const auto front_m = car.front_m * sine, rear_m = -car.rear_m * sine;
@@ -29,7 +30,8 @@ own_width width_of(const scene_viewer& me, const world::vehicle_params& car) {
 safe_response beside(const lane_obstacle& o, const scene_viewer& me,
                      const own_width& own, double front_m,
                      const rss_assumptions& assumed) {
-  assert(std::isfinite(front_m) && own.right_m <= own.left_m);
+  assert(std::isfinite(front_m));
+  assert(own.right_m <= own.left_m);
   const auto is_left = o.low_m + o.high_m > own.right_m + own.left_m;
   const auto gap_m = is_left ? o.low_m - own.left_m : own.right_m - o.high_m;
   const auto nearing_mps =
@@ -51,7 +53,8 @@ safe_response longest_safe_response(const driving_scene& told,
                                     const rss_assumptions& assumed,
                                     const world::vehicle_params& car,
                                     double most_s) {
-  assert(std::isfinite(me.s_m) && me.speed_mps >= 0 && most_s > 0);
+  assert(std::isfinite(me.s_m) && me.speed_mps >= 0);
+  assert(most_s > 0);
   safe_response least{most_s, "free"};
   const auto take = [&](const safe_response& one) {
     if (one.longest_s < least.longest_s)
