@@ -29,8 +29,8 @@ void source_selector::look_at_scene(time_point now) {
   port_.record(std::move(seen));
 }
 
-/// @returns the greatest age of the scenes of which results may still come:
-/// what is made of an older input is later than the scene allows.
+/// @returns the greatest age among the inputs whose results may still be used:
+/// those of older inputs come later than the scene allows.
 duration source_selector::greatest_age(const safe_response& found,
                                        time_point now) {
   assert(found.age >= duration{0});

@@ -1,6 +1,7 @@
 // Whose results a vehicle uses when its scene says how late they may be.
 #include "tests/offloading/selector_diary.hpp"
 #include "tests/support/at.hpp"
+#include "tests/support/echo.hpp"
 
 #include <doctest/doctest.h>
 
@@ -14,6 +15,7 @@ using namespace std::chrono_literals;
 using namespace test::numbers_service;
 using offloading::source_selector;
 using test::at;
+using test::echo;
 
 namespace {
 

@@ -59,8 +59,8 @@ struct chain_stage_state {
       self->send(service, input);
   }
 
-  // @returns when that was sensed of which a result was made; of one older than
-  // all that is known, the oldest.
+  // @returns the sensing instant of the input that a result was made of, or of
+  // the oldest known input.
   time_point sensed(const messages::service_result& result) const {
     auto found = inputs.front();
     for (const auto& x : inputs)

@@ -68,7 +68,8 @@ look_at_all(const messages::service_input& latest,
     return seen;
   const auto way = world.streets->find(request->way);
   const auto& own = request->from;
-  // Who takes part in what was agreed, and has yet to come, is none of these.
+  // A told scene names no road user that keeps to an agreed drive, so a window
+  // that binds gives priority over nobody in it.
   const auto told = planners::longest_safe_response(
       request->found.scene->scene,
       {own.s_m, own.d_m, own.heading_error_rad, own.speed_mps,
