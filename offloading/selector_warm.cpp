@@ -16,10 +16,10 @@ void source_selector::on_home_is_near(time_point now) {
 }
 
 /// @returns whether the own function has been called for the newest input.
-bool source_selector::run_along(time_point now) {
+bool source_selector::run_along(time_point now, bool at_once) {
   const auto runs = is_remote() && warm_.runs_along(now);
   if (runs)
-    call_own(now);
+    call_own(now, at_once);
   else if (std::exchange(own_runs_along_, false)) {
     drop_own();
     port_.rest();
@@ -28,13 +28,31 @@ bool source_selector::run_along(time_point now) {
 }
 
 /// As a provider that stands by, it runs one cycle, from the result in use.
-void source_selector::call_own([[maybe_unused]] time_point now) {
+void source_selector::call_own([[maybe_unused]] time_point now, bool at_once) {
   assert(is_remote() && warm_.runs_along(now));
   if (!std::exchange(own_runs_along_, true))
     drop_own();
   auto input = newest_;
   input.standby = true;
+  input.at_once = at_once;
   port_.run_along(std::move(input));
+}
+
+/// A cycle besides the grid may be done before one that began earlier.
+void source_selector::on_own_result(const messages::service_result& result,
+                                    time_point now) {
+  assert(!result.session.is_remote());
+  ++work_.computed;
+  work_.computing += result.timing.computing;
+  if (result.cycle < last_own_cycle_) {
+    ++work_.along;
+    return;
+  }
+  last_own_cycle_ = result.cycle;
+  if (is_remote())
+    take_own(result, now);
+  else if (options().per_input || result.created >= believed_from_)
+    use(result, now);
 }
 
 void source_selector::take_own(const messages::service_result& result,

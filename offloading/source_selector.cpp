@@ -106,7 +106,7 @@ void source_selector::on_input(const messages::service_input& input,
   newest_.sensed = input.sensed;
   if (setup_.asks_scene || options().latency_by_scene)
     look_at_scene(now);
-  if (!run_along(now))
+  if (!run_along(now, input.at_once))
     port_.feed_local(input);
   for (auto& x : sources_)
     if (input_due(x, now) && !(x.in_use && is_standby(x)))
@@ -161,12 +161,7 @@ void source_selector::on_result(const messages::service_result& result,
   pass(now);
   assert(is_consistent());
   if (!result.session.is_remote()) {
-    ++work_.computed;
-    work_.computing += result.timing.computing;
-    if (is_remote())
-      take_own(result, now);
-    else if (options().per_input || result.created >= believed_from_)
-      use(result, now);
+    on_own_result(result, now);
     return;
   }
   ++work_.received;

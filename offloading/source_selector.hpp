@@ -80,7 +80,8 @@ public:
 ///   rests while a provider's results are used;
 /// * a provider's results are used from the first one on that comes in time and
 ///   that its judge finds nothing against; those that come late, twice or out
-///   of order are not used;
+///   of order are not used, nor are those of the own function that a later
+///   cycle has overtaken;
 /// * an implausible result ends its session at once;
 /// * where the scene says how late a result may be (`limits_in_scene`), its
 ///   limits hold from each input on, and a scene that allows for none ends all
@@ -189,8 +190,9 @@ private:
   bool may_follow(const messages::service_result& result, time_point now) const;
   void give_up_silent(time_point now);
 
-  bool run_along(time_point now);
-  void call_own(time_point now);
+  bool run_along(time_point now, bool at_once = false);
+  void call_own(time_point now, bool at_once = false);
+  void on_own_result(const messages::service_result& result, time_point now);
   void take_own(const messages::service_result& result, time_point now);
   void drop_own();
   void await_missed_result();
@@ -219,6 +221,7 @@ private:
   warm_standby warm_;
   bool own_runs_along_ = false;
   std::optional<messages::service_result> newest_own_; // since it runs along
+  std::uint64_t last_own_cycle_ = 0;
   time_point believed_from_ =
       time_point::min();           // what it began before may go on from a lie
   messages::session_id watched_;   // by whose name the watchdog watches

@@ -317,3 +317,41 @@ TEST_CASE_FIXTURE(warm_world, "results of it that are not used are counted as "
   CHECK(work.along == 0);
   CHECK(work.on_board == 2);
 }
+
+TEST_CASE_FIXTURE(warm_world,
+                  "an input of what has just come home has it begin "
+                  "at once, though it runs along only") {
+  until(20ms);
+  service_input fresh{own, now, payload::of(echo{1})};
+  fresh.at_once = true;
+  selector.on_input(fresh, now);
+  CHECK(called.at_once);
+  CHECK(called.standby);
+  until(70ms);
+  input();
+  CHECK_FALSE(called.at_once);
+}
+
+TEST_CASE_FIXTURE(warm_world, "a result of it that a later cycle has overtaken "
+                              "is not used") {
+  until(20ms);
+  input();
+  SUBCASE("while a provider runs the service") {
+    own_result(5ms, 4);
+    cycle -= 2; // of the one that comes now
+    own_result(15ms, a_jump);
+    news();
+    end(); // with the later one, which continues
+    CHECK(news() == words{"home", "use own", "plan on"});
+  }
+  SUBCASE("at home") {
+    end();
+    own_result(5ms, 4);
+    cycle -= 2;
+    news();
+    own_result(15ms, 3);
+    CHECK(news().empty());
+    selector.record_work();
+    CHECK(work.along == 1);
+  }
+}
