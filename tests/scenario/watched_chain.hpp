@@ -132,7 +132,8 @@ public:
   void observe(time_point now, const messages::service_input& input) override {
     real_->observe(now, input);
     follow(now, input, vehicle_.in_use, nullptr);
-    vehicle_.own.reset();
+    if (name_ == "trajectory_planning")
+      vehicle_.own.reset();
   }
 
 private:
