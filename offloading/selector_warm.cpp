@@ -42,6 +42,7 @@ void source_selector::call_own([[maybe_unused]] time_point now, bool at_once) {
 void source_selector::on_own_result(const messages::service_result& result,
                                     time_point now) {
   assert(!result.session.is_remote());
+  assert(result.created <= now);
   ++work_.computed;
   work_.computing += result.timing.computing;
   if (result.cycle < last_own_cycle_) {
@@ -95,6 +96,8 @@ void source_selector::on_missed_result(time_point now) {
 /// @returns the own function's result that can be used at once, if any.
 std::optional<messages::service_result>
 source_selector::ready(time_point now) const {
+  assert(!newest_own_ || !newest_own_->session.is_remote());
+  assert(!newest_own_ || newest_own_->cycle <= last_own_cycle_);
   if (!own_runs_along_ || !newest_own_
       || now - newest_own_->created > patience_periods * options().period)
     return std::nullopt;
